@@ -1,0 +1,378 @@
+/*
+ * lightband: shading of measured materials by bandwidth prediction.
+ *
+ * The C interface (C99). A program reads top to bottom:
+ *
+ *     lb_context      one OpenGL device, owned by the library
+ *     lb_brdf         a reflectance: measured (MERL), built in, or analytic
+ *     lb_environment  distant light: a latitude-longitude map
+ *     lb_mesh         triangles
+ *     lb_scene        meshes with their materials, one environment, one camera
+ *     lb_frame        a picture's size and settings; renders scenes, holds the fields
+ *     lb_buffer       one field of a frame (or of a material, or of a map) as an array in memory
+ *
+ * Results    Every call returns lb_result. Output arguments are written on LB_OK alone. The text of the
+ *            last failure on the calling thread is lb_error_message(). No call exits, aborts, prints or
+ *            throws.
+ * Handles    Opaque and reference counted. A create call returns one reference; *_release drops it;
+ *            releasing NULL does nothing. Objects keep what they need alive: a mesh keeps its context,
+ *            a scene its meshes. A handle that was released is recognised (LB_ERROR_INVALID_HANDLE).
+ * Structs    Begin with `struct_size`, set by the *_INIT macro beside each. Zero in a field means the default.
+ * Threads    Every call may come from any thread. Calls on objects of one context wait for each other;
+ *            objects of different contexts are independent. Callbacks run on the calling thread and must
+ *            not call the library.
+ * Units      Metres, radians, cycles. Angular bandwidth in cycles per radian, spatial in cycles per metre,
+ *            image bandwidth in cycles per pixel. Radiance is linear with Rec. 709 primaries; luminance
+ *            weights 0.2126, 0.7152, 0.0722. World space is right-handed.
+ * Arrays     Rows run top-down; the first element is the top left pixel.
+ *
+ * Equation numbers are those of Bagher et al., "Interactive Rendering of Acquired Materials on Dynamic
+ * Geometry Using Frequency Analysis", IEEE TVCG 19(5), 2013, unless another source is named.
+ */
+#ifndef LIGHTBAND_LIGHTBAND_H
+#define LIGHTBAND_LIGHTBAND_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32)
+#define LB_API
+#else
+#define LB_API __attribute__((visibility("default")))
+#endif
+
+#define LB_VERSION_MAJOR 0
+#define LB_VERSION_MINOR 1
+#define LB_VERSION_PATCH 0
+
+/* Version of the library that runs: 10000 * major + 100 * minor + patch. */
+LB_API uint32_t lb_version(void);
+
+/* ---- Results ------------------------------------------------------------------------------------ */
+
+typedef int32_t lb_result;
+
+#define LB_OK 0
+#define LB_ERROR_INVALID_ARGUMENT 1 /* an argument is NULL, not finite, out of range or of an unknown name */
+#define LB_ERROR_INVALID_HANDLE 2   /* the handle is NULL, was released, or names an object of another kind */
+#define LB_ERROR_INVALID_STATE 3    /* the call came too early: no camera, no environment, no frame rendered */
+#define LB_ERROR_FILE 4             /* a file cannot be opened, read, written or renamed */
+#define LB_ERROR_FORMAT 5           /* a file is not what it says: truncated, corrupt, out of limits */
+#define LB_ERROR_OUT_OF_MEMORY 6    /* host memory */
+#define LB_ERROR_DEVICE 7           /* no device, or OpenGL failed; the message lists every attempt */
+#define LB_ERROR_LIMIT 8            /* a size is beyond what the device or the library can hold */
+#define LB_ERROR_CANCELLED 9        /* the progress callback asked to stop */
+#define LB_ERROR_INTERNAL 10        /* a defect of the library: please report the message */
+
+/* Name of a result, "LB_ERROR_FORMAT"; "unknown" for any other number. Never NULL; static storage. */
+LB_API const char* lb_result_name(lb_result result);
+
+/* Text of the last failure on the calling thread, "" before the first. It names file or argument, field,
+ * value and limit. A success does not clear it. Valid until the thread's next failure. Never NULL. */
+LB_API const char* lb_error_message(void);
+
+/* ---- Handles ------------------------------------------------------------------------------------ */
+
+typedef struct lb_context_handle* lb_context;
+typedef struct lb_brdf_handle* lb_brdf;
+typedef struct lb_environment_handle* lb_environment;
+typedef struct lb_mesh_handle* lb_mesh;
+typedef struct lb_scene_handle* lb_scene;
+typedef struct lb_frame_handle* lb_frame;
+typedef struct lb_buffer_handle* lb_buffer;
+
+LB_API lb_result lb_context_retain(lb_context context);
+LB_API lb_result lb_context_release(lb_context context);
+LB_API lb_result lb_brdf_retain(lb_brdf brdf);
+LB_API lb_result lb_brdf_release(lb_brdf brdf);
+LB_API lb_result lb_environment_retain(lb_environment environment);
+LB_API lb_result lb_environment_release(lb_environment environment);
+LB_API lb_result lb_mesh_retain(lb_mesh mesh);
+LB_API lb_result lb_mesh_release(lb_mesh mesh);
+LB_API lb_result lb_scene_retain(lb_scene scene);
+LB_API lb_result lb_scene_release(lb_scene scene);
+LB_API lb_result lb_frame_retain(lb_frame frame);
+LB_API lb_result lb_frame_release(lb_frame frame);
+LB_API lb_result lb_buffer_retain(lb_buffer buffer);
+LB_API lb_result lb_buffer_release(lb_buffer buffer);
+
+/* ---- Context ------------------------------------------------------------------------------------ */
+
+/* Which OpenGL device. Software rendering is a stated choice, never a silent fallback. */
+#define LB_DEVICE_HARDWARE 0 /* a GPU; LB_ERROR_DEVICE where there is none */
+#define LB_DEVICE_SOFTWARE 1 /* the CPU (Mesa llvmpipe) */
+#define LB_DEVICE_ANY 2      /* a GPU, else the CPU; lb_context_device_name says which it became */
+
+typedef void (*lb_log_callback)(void* user, const char* message);
+
+typedef struct lb_context_desc {
+    uint32_t struct_size;
+    uint32_t device;        /* LB_DEVICE_* */
+    lb_log_callback log;    /* driver and library messages; NULL: silence. Called on the calling thread */
+    void* log_user;         /* handed to log */
+    const char* cache_path; /* folder for the tables of built-in materials (35 MB each), made if missing.
+                               NULL: $XDG_CACHE_HOME/lightband, else $HOME/.cache/lightband.
+                               "": no cache. A folder that cannot be written costs time, never a failure */
+} lb_context_desc;
+
+#define LB_CONTEXT_DESC_INIT { sizeof(lb_context_desc), LB_DEVICE_HARDWARE, NULL, NULL, NULL }
+
+/* Makes an OpenGL 4.5 core context of the library's own, without a window: EGL device platform first, then
+ * Mesa's surfaceless platform. desc NULL: all defaults. The caller's current OpenGL context, if any, is
+ * current again when a call returns.
+ * LB_ERROR_DEVICE: no attempt succeeded; the message lists each with its reason. */
+LB_API lb_result lb_context_create(const lb_context_desc* desc, lb_context* context);
+
+/* Renderer and version as the driver names them. Valid while the context lives. */
+LB_API lb_result lb_context_device_name(lb_context context, const char** name);
+
+/* Whether the device is a software renderer: 1 or 0. */
+LB_API lb_result lb_context_is_software(lb_context context, uint32_t* software);
+
+/* ---- Reflectance -------------------------------------------------------------------------------- */
+
+/* A BRDF of a MERL .binary file (Matusik et al. 2003): three int32 (90, 90, 180), then 3 x 90 x 90 x 180
+ * float64, channel-major, cells (theta_half [quadratic], theta_diff, phi_diff), scaled by (1, 1.15, 1.66)/1500
+ * to 1/steradian. Negative cells were not measured; they reflect nothing.
+ * LB_ERROR_FILE, LB_ERROR_FORMAT (header, size, a cell that is not finite). */
+LB_API lb_result lb_brdf_load(lb_context context, const char* path, lb_brdf* brdf);
+
+/* A material that the library computes itself as a table in the MERL layout, from physical models and
+ * published optical constants (docs/materials.md). Computed at first use (about a second) and cached.
+ * LB_ERROR_INVALID_ARGUMENT: unknown name; the message lists the names. */
+LB_API lb_result lb_brdf_builtin(lb_context context, const char* name, lb_brdf* brdf);
+
+/* Names of the built-in materials: index 0 .. count - 1. Static storage; NULL beyond the last. */
+LB_API uint32_t lb_brdf_builtin_count(void);
+LB_API const char* lb_brdf_builtin_name(uint32_t index);
+
+/* A BRDF from a table in memory: float32 values in 1/steradian, shape [90][90][180][3], cells and order as in a
+ * MERL file but colours interleaved; negative: not measured. The table is copied. */
+LB_API lb_result lb_brdf_create_table(lb_context context, const float* values, size_t count, lb_brdf* brdf);
+
+/* Lambert: albedo / pi. Each albedo channel in [0, 1]. */
+LB_API lb_result lb_brdf_create_lambert(lb_context context, const float albedo[3], lb_brdf* brdf);
+
+/* GGX microfacets (Walter et al. 2007) with height-correlated Smith shadowing and Schlick's Fresnel term.
+ * alpha in [1e-4, 1] (roughness squared); f0, the reflectance at normal incidence, each channel in [0, 1]. */
+LB_API lb_result lb_brdf_create_ggx(lb_context context, float alpha, const float f0[3], lb_brdf* brdf);
+
+/* Value of the BRDF, RGB in 1/steradian, for two directions in the local frame (+Z is the normal; need not be
+ * normalised). Zero where either lies below the horizon. Nearest cell of a table. Double precision inside. */
+LB_API lb_result lb_brdf_evaluate(lb_brdf brdf, const float wi[3], const float wo[3], float rgb[3]);
+
+/* Directional albedo, RGB: the part of the light from direction wo that is reflected, by quadrature of the cosine-
+ * weighted BRDF over the hemisphere on the CPU in double precision. theta_o in [0, pi/2) radians. */
+LB_API lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]);
+
+/* ---- Environment -------------------------------------------------------------------------------- */
+
+/* Distant light from a latitude-longitude map: OpenEXR (.exr, every pixel type and compression that OpenEXR
+ * reads) or Radiance (.hdr). +Y is up, the image's centre looks along +Z, its left edge along -Z (OpenEXR's
+ * convention); texels are sampled at their centres. 1x1 up to 16384x8192.
+ * LB_ERROR_FILE, LB_ERROR_FORMAT (corrupt; a texel that is negative or not finite: the message says where). */
+LB_API lb_result lb_environment_load(lb_context context, const char* path, lb_environment* environment);
+
+/* The same from memory: width * height * 3 float32, rows top-down, tightly packed, RGB interleaved. Copied. */
+LB_API lb_result lb_environment_create(lb_context context, uint32_t width, uint32_t height, const float* rgb,
+                                       lb_environment* environment);
+
+/* ---- Mesh --------------------------------------------------------------------------------------- */
+
+typedef struct lb_mesh_desc {
+    uint32_t struct_size;
+    uint32_t vertex_count;
+    const float* positions; /* vertex_count * 3, metres */
+    const float* normals;   /* vertex_count * 3, any length but zero; NULL: computed, area-weighted */
+    const float* texcoords; /* vertex_count * 2; NULL: none */
+    const uint32_t* indices; /* triangle_count * 3, each below vertex_count */
+    uint32_t triangle_count;
+} lb_mesh_desc;
+
+#define LB_MESH_DESC_INIT { sizeof(lb_mesh_desc), 0, NULL, NULL, NULL, NULL, 0 }
+
+/* Triangles, copied. Both sides of a triangle are shaded. Triangles of zero area are dropped (counted by
+ * lb_mesh_info); a mesh of nothing else is an error.
+ * LB_ERROR_INVALID_ARGUMENT: no vertices or triangles, an index out of range, a vertex that is not finite. */
+LB_API lb_result lb_mesh_create(lb_context context, const lb_mesh_desc* desc, lb_mesh* mesh);
+
+/* A computed shape about one metre across, centred at the origin: "sphere" (radius 0.5), "plane" (1 x 1, facing
+ * +Z), "torus", "knot" (a trefoil tube), "blob" (a smooth bumpy sphere).
+ * resolution: segments around, 8 to 2048; 0: 256. */
+LB_API lb_result lb_mesh_builtin(lb_context context, const char* name, uint32_t resolution, lb_mesh* mesh);
+
+typedef struct lb_mesh_stats {
+    uint32_t struct_size;
+    uint32_t vertices;
+    uint32_t triangles;          /* those kept */
+    uint32_t dropped_triangles;  /* those of zero area */
+    float bounds_min[3];         /* metres */
+    float bounds_max[3];
+} lb_mesh_stats;
+
+#define LB_MESH_STATS_INIT { sizeof(lb_mesh_stats), 0, 0, 0, {0, 0, 0}, {0, 0, 0} }
+
+LB_API lb_result lb_mesh_info(lb_mesh mesh, lb_mesh_stats* stats);
+
+/* ---- Scene -------------------------------------------------------------------------------------- */
+
+typedef struct lb_camera_desc {
+    uint32_t struct_size;
+    float eye[3];    /* metres */
+    float target[3]; /* a point in the middle of the picture; not the eye */
+    float up[3];     /* not along the view direction; zero: +Y */
+    float fov_y;     /* vertical field of view, radians, in (0, pi); zero: 0.7 */
+    float near_plane; /* metres, > 0; zero: 1e-3 of the distance from eye to target */
+    float far_plane;  /* metres, > near; zero: 1e3 times that distance */
+} lb_camera_desc;
+
+#define LB_CAMERA_DESC_INIT { sizeof(lb_camera_desc), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0 }
+
+/* An empty scene. It needs an environment and a camera before it can be rendered; it may have no mesh. */
+LB_API lb_result lb_scene_create(lb_context context, lb_scene* scene);
+LB_API lb_result lb_scene_set_environment(lb_scene scene, lb_environment environment);
+LB_API lb_result lb_scene_set_camera(lb_scene scene, const lb_camera_desc* camera);
+
+/* Adds a mesh with its material. transform: 12 floats, three rows of an affine 3x4 matrix (object to world),
+ * NULL: identity; it must be finite and invertible. index (may be NULL) receives the instance's number, counted
+ * from 0; the buffer "material" holds it plus one. At most 254 instances. */
+LB_API lb_result lb_scene_add(lb_scene scene, lb_mesh mesh, lb_brdf brdf, const float* transform, uint32_t* index);
+
+/* Replaces an instance's transform. */
+LB_API lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const float* transform);
+
+/* ---- Frame -------------------------------------------------------------------------------------- */
+
+/* A picture of width x height pixels, each 1 .. 8192, with the default settings. */
+LB_API lb_result lb_frame_create(lb_context context, uint32_t width, uint32_t height, lb_frame* frame);
+
+/* Settings by name. The table of names, types, ranges, defaults and meanings: lb_setting_at.
+ * LB_ERROR_INVALID_ARGUMENT: unknown name, wrong type, out of range, unknown choice; nothing is changed then. */
+LB_API lb_result lb_frame_set_number(lb_frame frame, const char* name, double value);
+LB_API lb_result lb_frame_set_choice(lb_frame frame, const char* name, const char* value);
+LB_API lb_result lb_frame_get_number(lb_frame frame, const char* name, double* value);
+LB_API lb_result lb_frame_get_choice(lb_frame frame, const char* name, const char** value);
+
+#define LB_SETTING_INTEGER 0 /* lb_frame_set_number; a value with a fraction is an error */
+#define LB_SETTING_REAL 1    /* lb_frame_set_number */
+#define LB_SETTING_CHOICE 2  /* lb_frame_set_choice */
+
+typedef struct lb_setting_info {
+    uint32_t struct_size;
+    uint32_t type;              /* LB_SETTING_* */
+    const char* name;
+    double minimum, maximum;    /* numbers */
+    double default_number;
+    const char* default_choice; /* choices */
+    const char* choices;        /* "one|other" */
+    const char* documentation;
+} lb_setting_info;
+
+#define LB_SETTING_INFO_INIT { sizeof(lb_setting_info), 0, NULL, 0, 0, 0, NULL, NULL, NULL }
+
+LB_API uint32_t lb_setting_count(void);
+LB_API lb_result lb_setting_at(uint32_t index, lb_setting_info* info);
+
+/* Called between parts of a frame with the fraction done, in [0, 1]. Non-zero: stop; the render call returns
+ * LB_ERROR_CANCELLED and the frame holds what it held before. */
+typedef int32_t (*lb_progress_callback)(void* user, double fraction);
+
+/* Renders. On any failure the frame keeps its former result.
+ * LB_ERROR_INVALID_STATE: the scene has no camera or no environment; LB_ERROR_CANCELLED; LB_ERROR_LIMIT. */
+LB_API lb_result lb_frame_render(lb_frame frame, lb_scene scene, lb_progress_callback progress, void* user);
+
+typedef struct lb_frame_stats {
+    uint32_t struct_size;
+    uint32_t width, height;
+    uint32_t frames;             /* frames averaged: the setting "accumulate" */
+    uint64_t covered_pixels;     /* pixels that see a mesh */
+    uint64_t shaded_pixels;      /* those whose integral was computed; the others were interpolated */
+    uint64_t samples;            /* light samples drawn, counted by the shaders themselves, all frames */
+    uint64_t saturated_pixels;   /* covered pixels whose predicted bandwidth reached 0.5 cycles per pixel */
+    uint64_t bent_normals;       /* covered pixels whose shading normal faced away and was turned to the eye */
+    uint64_t device_bytes;       /* device memory held by the scene and this frame */
+    double milliseconds;         /* whole render call */
+    double bandwidth_milliseconds; /* of it: everything that prediction adds (bandwidth, pyramids, lists) */
+    double shading_milliseconds;   /* of it: the shading integral */
+} lb_frame_stats;
+
+#define LB_FRAME_STATS_INIT { sizeof(lb_frame_stats), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0 }
+
+/* LB_ERROR_INVALID_STATE before the first successful render. */
+LB_API lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats);
+
+/* The plan of the last frame as text: one line per pass with its reason, milliseconds, bytes and invocations.
+ * Writes at most size bytes including the final 0 and stores the size needed in *needed (may be NULL).
+ * text may be NULL when size is 0. */
+LB_API lb_result lb_frame_explain(lb_frame frame, char* text, size_t size, size_t* needed);
+
+/* ---- Buffers ------------------------------------------------------------------------------------ */
+
+#define LB_TYPE_FLOAT32 0
+#define LB_TYPE_UINT32 1
+#define LB_TYPE_UINT8 2
+
+typedef struct lb_buffer_view {
+    uint32_t struct_size;
+    uint32_t type;        /* LB_TYPE_* */
+    const void* data;     /* first element; valid until the buffer is released */
+    uint32_t dimensions;  /* 2 .. 4 */
+    uint64_t shape[4];    /* elements along each dimension, rows first */
+    int64_t strides[4];   /* bytes from one element to the next along each dimension */
+    const char* unit;     /* "radiance", "1/pixel", ... static storage */
+} lb_buffer_view;
+
+#define LB_BUFFER_VIEW_INIT { sizeof(lb_buffer_view), 0, NULL, 0, {0, 0, 0, 0}, {0, 0, 0, 0}, NULL }
+
+/* One field of the last frame, read back once into memory that the buffer owns: it stays as it is when the frame
+ * renders again or is released. Names: lb_frame_buffer_name. Pixels that see no mesh hold 0 unless said otherwise.
+ *
+ *   color               float32 [H][W][4]  radiance RGB and coverage (0 or 1)
+ *   depth               float32 [H][W]     metres from the eye's plane; infinity where nothing is seen
+ *   position            float32 [H][W][3]  metres, world
+ *   normal              float32 [H][W][3]  unit, world, towards the eye
+ *   curvature           float32 [H][W]     1/metre: largest principal curvature in magnitude
+ *   material            uint8   [H][W]     0: nothing seen; else instance number + 1
+ *   bandwidth_spatial   float32 [H][W]     cycles/metre, at the surface (first component of eq. 5)
+ *   bandwidth_angular   float32 [H][W]     cycles/radian, at the eye (second component of eq. 5)
+ *   bandwidth_image     float32 [H][W]     cycles/pixel, at most 0.5 (eq. 6)
+ *   level               uint8   [H][W]     log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)
+ *   shaded              uint8   [H][W]     1: the integral was computed here; 0: interpolated or nothing seen
+ *   sample_count        uint32  [H][W]     light samples drawn here
+ *   variance_predicted  float32 [H][W]     radiance^2: predicted variance of one light sample's luminance (eq. 9)
+ *   variance_measured   float32 [H][W]     radiance^2: the same, from the samples drawn here; 0 where fewer than two
+ *   level_pyramid       float32 [R][W]     the levels' min pyramid: level 0 in rows 0 .. H-1, level 1 (of half
+ *                                          size, rounded up) below it, and so on; unused elements hold 0
+ *   variance_pyramid    float32 [R][W]     the relative variances' max pyramid, laid out the same way
+ *
+ * A frame of method "reference" has no bandwidth, level, predicted or pyramid field: LB_ERROR_INVALID_STATE. */
+LB_API lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_buffer_view* view);
+LB_API uint32_t lb_frame_buffer_count(void);
+LB_API const char* lb_frame_buffer_name(uint32_t index);
+
+/* Fields of a map:
+ *   radiance   float32 [H][W][3]  as loaded
+ *   bandwidth  float32 [S][S]     cycles/radian on the octahedral square (docs/conventions.md) */
+LB_API lb_result lb_environment_map(lb_environment environment, const char* name, lb_buffer* buffer,
+                                    lb_buffer_view* view);
+
+/* Fields of a material:
+ *   table      float32 [90][90][180][3]  1/steradian (tabulated materials alone; else LB_ERROR_INVALID_STATE)
+ *   bandwidth  float32 [32][16][16]      cycles/radian of the lobe: views in steps of cos(theta_o), then the square
+ *                                        of incident directions (docs/conventions.md) */
+LB_API lb_result lb_brdf_map(lb_brdf brdf, const char* name, lb_buffer* buffer, lb_buffer_view* view);
+
+/* Writes a frame's fields. path ends in ".exr": float channels, one group per field, named "R", "G", "B", "A" for
+ * color and "<field>.<component>" for others; names: comma-separated fields, NULL: color alone. path ends in ".png":
+ * color alone, sRGB, after multiplication by 2^exposure. Written to a temporary file beside path, then renamed. */
+LB_API lb_result lb_frame_save(lb_frame frame, const char* path, const char* names, float exposure);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,18 @@
+// Materials that the library computes itself: tables in the MERL layout from physical models.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/brdf_table.h"
+
+namespace lightband {
+
+// Names in the order of the public index.
+const std::vector<const char*>& builtin_material_names();
+
+// Computes the table, or reads it from cache_path (a folder; empty: no cache) where an earlier call left it.
+// LB_ERROR_INVALID_ARGUMENT for an unknown name. Trouble with the cache is no error: the table is computed.
+BrdfTable builtin_material(const std::string& name, const std::string& cache_path);
+
+}  // namespace lightband
