@@ -1,0 +1,76 @@
+#include "bandwidth/lobe_bandwidth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "bandwidth/octahedral.h"
+
+namespace lightband {
+namespace {
+
+constexpr int reduction = LobeBandwidth::analysis_side / LobeBandwidth::side;
+
+// A peak that is narrower than two analysis texels may fall between them unseen. Tables cannot hold one (their own cells
+// are resolved by the peak search below); of the analytic lobes only GGX can.
+bool narrower_than_grid(const Brdf& brdf) {
+    const auto* ggx = std::get_if<Ggx>(&brdf);
+    const double texel = 0.5 * pi / (LobeBandwidth::analysis_side / 2.0);
+    return ggx != nullptr && 2 * ggx->alpha < 2 * texel;
+}
+
+SquareImage lobe_image(const Brdf& brdf, const Vec3& wo) {
+    constexpr int side = LobeBandwidth::analysis_side;
+    SquareImage image(side);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const Vec3 wi = HemiOctahedral::to_direction(Vec2((x + 0.5) / side, (y + 0.5) / side));
+            image.at(x, y) = luminance(evaluate(brdf, wi, wo)) * wi.z;
+        }
+    return image;
+}
+
+void analyse_view(const Brdf& brdf, BandRule rule, int view, float* out) {
+    constexpr int side = LobeBandwidth::analysis_side;
+    const double cosine = (view + 0.5) / LobeBandwidth::views;
+    const Vec3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
+    const SquareImage image = lobe_image(brdf, wo);
+    const SquareImage limits = local_band_limits(analyse(image, clamped_border), side, clamped_border, rule);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const double limit = limits.at(x, y);
+            const Vec3 wi = HemiOctahedral::to_direction(Vec2((x + 0.5) / side, (y + 0.5) / side));
+            const double value =
+                limit >= 0.5 ? unbounded_bandwidth : limit * side * stretch<HemiOctahedral>(wi);
+            float& cell = out[(y / reduction) * LobeBandwidth::side + x / reduction];
+            cell = std::max(cell, float(value));
+        }
+}
+
+}  // namespace
+
+double LobeBandwidth::at(const Vec3& wi, const Vec3& wo) const {
+    const Vec2 square = HemiOctahedral::to_square(wi);
+    const int view = std::clamp(int(wo.z * views), 0, views - 1);
+    const int x = std::clamp(int(square.x * side), 0, side - 1), y = std::clamp(int(square.y * side), 0, side - 1);
+    return values[size_t((view * side + y) * side + x)];
+}
+
+LobeBandwidth lobe_bandwidth(const Brdf& brdf, BandRule rule) {
+    LobeBandwidth result;
+    constexpr size_t lobe = size_t(LobeBandwidth::side) * LobeBandwidth::side;
+    result.values.assign(LobeBandwidth::views * lobe, narrower_than_grid(brdf) ? float(unbounded_bandwidth) : 0.0f);
+    if (narrower_than_grid(brdf)) return result;
+    const auto part = [&](int first, int step) {
+        for (int view = first; view < LobeBandwidth::views; view += step)
+            analyse_view(brdf, rule, view, &result.values[size_t(view) * lobe]);
+    };
+    const int threads = std::max(1, std::min(int(std::thread::hardware_concurrency()), LobeBandwidth::views));
+    std::vector<std::thread> workers;
+    for (int i = 1; i < threads; ++i) workers.emplace_back(part, i, threads);
+    part(0, threads);
+    for (std::thread& worker : workers) worker.join();
+    return result;
+}
+
+}  // namespace lightband

@@ -1,0 +1,190 @@
+#include "sampling/lobe_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightband {
+namespace {
+
+// The grid on which a lobe's density is computed before it is inverted.
+constexpr int grid_x = 2 * int(BrdfTable::theta_half_cells);
+constexpr int grid_phi = 64;
+// The part of all samples that is spread evenly over (x, phi), so that no direction has density 0 and no weight is
+// unbounded (Hesterberg 1995, defensive mixture).
+constexpr double defensive_part = 1.0 / 16;
+
+double mean(const Vec3& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
+
+Vec3 half_vector(double x, double phi) {
+    const double theta = x * x * pi / 2;
+    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
+}
+
+// d(wi) / d(x, phi): solid angle of wi per unit of x and phi, for theta_half = x^2 * pi / 2.
+double solid_angle_density(double x, double cos_outgoing_half) {
+    return 4 * cos_outgoing_half * std::sin(x * x * pi / 2) * pi * x;
+}
+
+// Turns `cells` non-negative masses over [0, end] into `steps` equally probable intervals that cover it.
+void invert(const std::vector<double>& mass, double end, int steps, LobeTable::Step* out) {
+    double total = 0;
+    for (double m : mass) total += m;
+    const double cell_width = end / double(mass.size());
+    double before = 0, last = 0;
+    size_t cell = 0;
+    for (int k = 0; k < steps; ++k) {
+        const double target = total * (k + 1) / steps;
+        while (cell + 1 < mass.size() && before + mass[cell] < target) before += mass[cell++];
+        const double inside = mass[cell] > 0 ? std::min((target - before) / mass[cell], 1.0) : 1.0;
+        const double next = k + 1 == steps ? end : (double(cell) + inside) * cell_width;
+        out[k] = {float(last), float(next) - float(last)};
+        last = float(next);
+    }
+}
+
+std::vector<double> lobe_grid(const Brdf& brdf, const Vec3& wo) {
+    std::vector<double> grid(size_t(grid_x) * grid_phi);
+    double total = 0;
+    for (int i = 0; i < grid_x; ++i)
+        for (int j = 0; j < grid_phi; ++j) {
+            const double x = (i + 0.5) / grid_x;
+            const Vec3 h = half_vector(x, (j + 0.5) / grid_phi * pi);
+            const double oh = glm::dot(wo, h);
+            if (oh <= 0) continue;
+            const Vec3 wi = 2 * oh * h - wo;
+            if (wi.z <= 0) continue;
+            const double value = mean(evaluate(brdf, wi, wo)) * wi.z * solid_angle_density(x, oh);
+            grid[size_t(i) * grid_phi + size_t(j)] = value;
+            total += value;
+        }
+    // A black lobe is sampled evenly: its samples carry nothing, but they must exist.
+    const double even = total > 0 ? total * defensive_part / (1 - defensive_part) : 1.0;
+    for (double& value : grid) value += even / double(grid.size());
+    return grid;
+}
+
+LobeSample sample_table(const LobeTable& table, const Vec3& wo, const Vec2& u) {
+    const int view = LobeTable::view_of(wo.z);
+    const double scaled_x = u.x * LobeTable::radial;
+    const int k = std::min(int(scaled_x), LobeTable::radial - 1);
+    const LobeTable::Step xs = table.x[size_t(view * LobeTable::radial + k)];
+    const double x = xs.start + (scaled_x - k) * xs.width;
+
+    const double side = u.y < 0.5 ? 1 : -1;
+    const double scaled_phi = (u.y < 0.5 ? 2 * u.y : 2 - 2 * u.y) * LobeTable::azimuthal;
+    const int l = std::min(int(scaled_phi), LobeTable::azimuthal - 1);
+    const LobeTable::Step ps = table.phi[size_t((view * LobeTable::radial + k) * LobeTable::azimuthal + l)];
+    const double phi = side * (ps.start + (scaled_phi - l) * ps.width);
+
+    LobeSample result;
+    result.half = half_vector(x, phi);
+    const double oh = glm::dot(wo, result.half);
+    if (oh <= 0) return result;
+    result.wi = 2 * oh * result.half - wo;
+    if (result.wi.z <= 0) return result;
+    const double per_area = 1.0 / (LobeTable::radial * xs.width * 2 * LobeTable::azimuthal * ps.width);
+    result.pdf = per_area / solid_angle_density(x, oh);
+    return result;
+}
+
+// The step of a row of adjoining intervals that holds value.
+int step_holding(const LobeTable::Step* steps, int count, double value) {
+    int k = 0;
+    while (k + 1 < count && value >= double(steps[k + 1].start)) ++k;
+    return k;
+}
+
+double pdf_table(const LobeTable& table, const Vec3& wi, const Vec3& wo) {
+    const Vec3 h = glm::normalize(wi + wo);
+    const double x = std::sqrt(std::atan2(std::hypot(h.x, h.y), h.z) / (pi / 2));
+    const double phi = std::abs(std::atan2(h.y, h.x));
+    const int view = LobeTable::view_of(wo.z);
+    const LobeTable::Step* xs = &table.x[size_t(view * LobeTable::radial)];
+    const int k = step_holding(xs, LobeTable::radial, x);
+    const LobeTable::Step* ps = &table.phi[size_t((view * LobeTable::radial + k) * LobeTable::azimuthal)];
+    const int l = step_holding(ps, LobeTable::azimuthal, phi);
+    return 1.0 / (LobeTable::radial * xs[k].width * 2 * LobeTable::azimuthal * ps[l].width) /
+           solid_angle_density(x, glm::dot(wo, h));
+}
+
+// Visible normals of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals").
+LobeSample sample_ggx(const Ggx& ggx, const Vec3& wo, const Vec2& u) {
+    const Vec3 v = glm::normalize(Vec3(ggx.alpha * wo.x, ggx.alpha * wo.y, wo.z));
+    const double r = std::sqrt(u.x), azimuth = 2 * pi * u.y;
+    // wo has azimuth 0, so the frame around v is (-v.z, 0, v.x) and +Y.
+    const double t1 = r * std::cos(azimuth), s = 0.5 * (1 + v.z);
+    const double t2 = (1 - s) * std::sqrt(std::max(0.0, 1 - t1 * t1)) + s * r * std::sin(azimuth);
+    const double t3 = std::sqrt(std::max(0.0, 1 - t1 * t1 - t2 * t2));
+    const Vec3 n = t1 * Vec3(0, 1, 0) + t2 * Vec3(-v.z, 0, v.x) + t3 * v;
+    LobeSample result;
+    result.half = glm::normalize(Vec3(ggx.alpha * n.x, ggx.alpha * n.y, std::max(n.z, 0.0)));
+    result.wi = 2 * glm::dot(wo, result.half) * result.half - wo;
+    return result;
+}
+
+double pdf_ggx(const Ggx& ggx, const Vec3& wi, const Vec3& wo) {
+    const Vec3 h = glm::normalize(wi + wo);
+    const double a2 = ggx.alpha * ggx.alpha, t = h.x * h.x + h.y * h.y + a2 * h.z * h.z;
+    // D G1(wo) / (4 cos_o), with G1 = 2 cos_o / (cos_o + sqrt(a2 + (1 - a2) cos_o^2)).
+    return a2 / (pi * t * t) * 0.5 / (wo.z + std::sqrt(a2 + (1 - a2) * wo.z * wo.z));
+}
+
+}  // namespace
+
+int LobeTable::view_of(double cos_outgoing) {
+    return std::clamp(int(std::acos(std::clamp(cos_outgoing, 0.0, 1.0)) / (pi / 2) * views), 0, views - 1);
+}
+
+LobeTable lobe_table(const Brdf& brdf) {
+    LobeTable table;
+    table.x.resize(size_t(LobeTable::views) * LobeTable::radial);
+    table.phi.resize(table.x.size() * LobeTable::azimuthal);
+    for (int view = 0; view < LobeTable::views; ++view) {
+        const double theta = (view + 0.5) / LobeTable::views * pi / 2;
+        const std::vector<double> grid = lobe_grid(brdf, Vec3(std::sin(theta), 0, std::cos(theta)));
+        std::vector<double> rows(grid_x);
+        for (int i = 0; i < grid_x; ++i)
+            for (int j = 0; j < grid_phi; ++j) rows[size_t(i)] += grid[size_t(i) * grid_phi + size_t(j)];
+        LobeTable::Step* xs = &table.x[size_t(view) * LobeTable::radial];
+        invert(rows, 1.0, LobeTable::radial, xs);
+        for (int k = 0; k < LobeTable::radial; ++k) {
+            // The azimuth's density over the whole step: rows in proportion to their overlap with it.
+            std::vector<double> column(grid_phi);
+            const double first = xs[k].start * grid_x, last = (xs[k].start + xs[k].width) * grid_x;
+            for (int i = int(first); i < grid_x && i < last; ++i) {
+                const double overlap = std::min(last, i + 1.0) - std::max(first, double(i));
+                for (int j = 0; j < grid_phi; ++j) column[size_t(j)] += overlap * grid[size_t(i) * grid_phi + size_t(j)];
+            }
+            invert(column, pi, LobeTable::azimuthal,
+                   &table.phi[(size_t(view) * LobeTable::radial + size_t(k)) * LobeTable::azimuthal]);
+        }
+    }
+    return table;
+}
+
+LobeSampler::LobeSampler(const Brdf& brdf) : brdf_(brdf) {
+    if (std::holds_alternative<BrdfTable>(brdf)) table_ = lobe_table(brdf);
+}
+
+LobeSample LobeSampler::sample(const Vec3& wo, const Vec2& u) const {
+    if (!table_.x.empty()) return sample_table(table_, wo, u);
+    LobeSample result;
+    if (const auto* ggx = std::get_if<Ggx>(&brdf_)) {
+        result = sample_ggx(*ggx, wo, u);
+    } else {
+        const double r = std::sqrt(u.x), phi = 2 * pi * u.y;
+        result.wi = Vec3(r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - u.x)));
+        result.half = glm::normalize(result.wi + wo);
+    }
+    result.pdf = pdf(result.wi, wo);
+    return result;
+}
+
+double LobeSampler::pdf(const Vec3& wi, const Vec3& wo) const {
+    if (!(wi.z > 0)) return 0;
+    if (!table_.x.empty()) return pdf_table(table_, wi, wo);
+    if (const auto* ggx = std::get_if<Ggx>(&brdf_)) return pdf_ggx(*ggx, wi, wo);
+    return wi.z / pi;
+}
+
+}  // namespace lightband
