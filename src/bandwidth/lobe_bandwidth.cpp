@@ -41,7 +41,7 @@ void analyse_view(const Brdf& brdf, BandRule rule, int view, float* out) {
             const double limit = limits.at(x, y);
             const Vec3 wi = HemiOctahedral::to_direction(Vec2((x + 0.5) / side, (y + 0.5) / side));
             const double value =
-                limit >= 0.5 ? unbounded_bandwidth : limit * side * stretch<HemiOctahedral>(wi);
+                limit >= 0.5 ? unbounded_bandwidth : limit * side * stretch(HemiOctahedral{}, wi);
             float& cell = out[(y / reduction) * LobeBandwidth::side + x / reduction];
             cell = std::max(cell, float(value));
         }

@@ -39,20 +39,16 @@ struct HemiOctahedral {
     }
 };
 
-// Largest singular value of the Jacobian d(square)/d(direction): how many square sides a radian spans at most. A
-// frequency of f cycles per side is at most f * stretch cycles per radian. Central differences; step is far above
-// rounding (1e-16 / step) and far below curvature (step^2).
-template <class Map>
-double stretch(const Vec3& direction) {
-    constexpr double step = 1e-5;
-    const Frame3 frame(direction);
-    const auto along = [&](const Vec3& tangent) {
-        return (Map::to_square(glm::normalize(direction + step * tangent)) -
-                Map::to_square(glm::normalize(direction - step * tangent))) / (2 * step);
-    };
-    const Vec2 a = along(frame.tangent), b = along(frame.bitangent);
-    const double trace = glm::dot(a, a) + glm::dot(b, b), det = a.x * b.y - a.y * b.x;
-    return std::sqrt(0.5 * (trace + std::sqrt(std::max(0.0, trace * trace - 4 * det * det))));
+// Largest singular value of the Jacobian d(square) / d(direction): how many square sides a radian spans at most. A frequency
+// of f cycles per side is at most f * stretch cycles per radian. With p = (u, v) / s, s = |x| + |y| + |z|, the Jacobian is
+// (e_u - p_u (1, 1, 1), e_v - p_v (1, 1, 1)) / s in the first octant, and the others mirror it.
+inline double octahedral_stretch(double u, double v, double w, double square_sides) {
+    const double s = std::abs(u) + std::abs(v) + std::abs(w), a = std::abs(u) / s, b = std::abs(v) / s;
+    const double aa = (1 - a) * (1 - a) + 2 * a * a, bb = (1 - b) * (1 - b) + 2 * b * b, ab = 3 * a * b - a - b;
+    const double half = 0.5 * (aa - bb);
+    return square_sides / s * std::sqrt(0.5 * (aa + bb) + std::sqrt(half * half + ab * ab));
 }
+inline double stretch(const Octahedral&, const Vec3& d) { return octahedral_stretch(d.x, d.z, d.y, 0.5); }
+inline double stretch(const HemiOctahedral&, const Vec3& d) { return octahedral_stretch(d.x, d.y, d.z, std::sqrt(0.5)); }
 
 }  // namespace lightband

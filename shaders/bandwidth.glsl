@@ -1,0 +1,127 @@
+// The bandwidth buffer (section 3.1): per pixel the bandwidth of the light arriving there (eq. 5), its image bandwidth
+// (eq. 6), the level at which it may be shaded (eq. 11) and the predicted variance of a light sample (eq. 9).
+#include "common.glsl"
+#include "transport.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler2D positions;
+layout(binding = 1) uniform sampler2D normals;
+layout(binding = 2) uniform usampler2D materials;
+layout(binding = 3) uniform sampler2D moments;       // octahedral: means of L, L^2, L nu_a
+layout(binding = 4) uniform samplerBuffer pilots;    // src/sampling/pilots.h: two vec4 each
+layout(binding = 5) uniform usamplerBuffer brdf_of;  // instance number + 1 -> BRDF slot
+
+layout(binding = 0, rgba32f) writeonly uniform image2D bandwidth;   // spatial, angular, image, curvature
+layout(binding = 1, rg32f) writeonly uniform image2D prediction;    // variance of one sample, mean radiance (luminance)
+layout(binding = 2, r8ui) writeonly uniform uimage2D levels;
+
+uniform int pilot_count;
+uniform int coarsest_level;
+uniform float radians_per_pixel;
+uniform float bandwidth_scale;
+uniform float footprint_level;  // log2 of the moments' side, squared, over 4 pi: turns steradians into texels
+
+const float nyquist = 0.5;      // cycles per pixel: what the finest level can show
+
+struct Surface {
+    vec3 position;  // from the eye
+    vec3 normal;
+    float depth;
+    uint material;
+};
+
+Surface surface_at(ivec2 at) {
+    vec4 p = texelFetch(positions, at, 0);
+    return Surface(p.xyz, texelFetch(normals, at, 0).xyz, p.w, texelFetch(materials, at, 0).r);
+}
+
+// Change of position and normal per pixel along one axis, by the side whose normal changes less (the other may lie beyond
+// a crease); false where neither neighbour belongs to the same instance.
+bool change_along(ivec2 axis, ivec2 at, Surface here, out vec3 dp, out vec3 dn) {
+    bool found = false;
+    dp = dn = vec3(0);
+    for (int side = -1; side <= 1; side += 2) {
+        ivec2 to = at + side * axis;
+        if (any(lessThan(to, ivec2(0))) || any(greaterThanEqual(to, textureSize(materials, 0)))) continue;
+        if (texelFetch(materials, to, 0).r != here.material) continue;
+        vec3 p = (texelFetch(positions, to, 0).xyz - here.position) * float(side);
+        vec3 n = (texelFetch(normals, to, 0).xyz - here.normal) * float(side);
+        if (!found || dot(n, n) * dot(dp, dp) < dot(dn, dn) * dot(p, p)) { dp = p; dn = n; }
+        found = true;
+    }
+    return found;
+}
+
+// Largest principal curvature in magnitude, 1/metre, from the two fundamental forms; negative where the neighbours do not
+// span the surface.
+float curvature_at(ivec2 at, Surface here) {
+    vec3 px, py, nx, ny;
+    if (!change_along(ivec2(1, 0), at, here, px, nx) || !change_along(ivec2(0, 1), at, here, py, ny)) return -1.0;
+    // In units of the pixel's size at this depth, so that no product leaves the range of float in a tiny or huge scene.
+    float unit_length = here.depth * radians_per_pixel;
+    px /= unit_length;
+    py /= unit_length;
+    float e = dot(px, px), f = dot(px, py), g = dot(py, py);
+    float l = dot(nx, px), m = 0.5 * (dot(nx, py) + dot(ny, px)), n = dot(ny, py);
+    float area = e * g - f * f;
+    // Steps that are parallel to within float rounding of their products span nothing.
+    if (!(area > 1e-6 * e * g)) return -1.0;
+    float mean = 0.5 * (e * n - 2.0 * f * m + g * l) / area, gauss = (l * n - m * m) / area;
+    return (abs(mean) + sqrt(max(mean * mean - gauss, 0.0))) / unit_length;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, textureSize(materials, 0)))) return;
+    Surface here = surface_at(at);
+    if (here.material == 0u) {
+        imageStore(bandwidth, at, vec4(0));
+        imageStore(prediction, at, vec4(0));
+        imageStore(levels, at, uvec4(255));  // nothing seen: no constraint
+        return;
+    }
+    float distance_to_eye = length(here.position);
+    vec3 wo_world = -here.position / distance_to_eye;
+    mat3 frame = local_frame(here.normal, wo_world);
+    float cos_outgoing = dot(here.normal, wo_world);
+    vec3 wo = vec3(sqrt(max(0.0, 1.0 - cos_outgoing * cos_outgoing)), 0.0, cos_outgoing);
+    float curvature = curvature_at(at, here);
+
+    int view = min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1);
+    int first = (int(texelFetch(brdf_of, int(here.material)).r) * LOBE_VIEWS + view) * pilot_count;
+    float frequency_limit = nyquist / radians_per_pixel;  // cycles/radian at the eye
+    vec2 weighted = vec2(0);
+    float weights = 0.0, second = 0.0, printed = 0.0;
+    for (int i = 0; i < pilot_count; ++i) {
+        vec4 a = texelFetch(pilots, 2 * (first + i)), b = texelFetch(pilots, 2 * (first + i) + 1);
+        if (a.w == 0.0) continue;
+        vec3 wi = 2.0 * dot(wo, a.xyz) * a.xyz - wo;
+        float level = max(0.0, 0.5 * (b.z + footprint_level));
+        vec3 light = textureLod(moments, octahedral(frame * wi), level).xyz;
+        if (light.x <= 0.0) continue;
+        float light_bandwidth = light.z / light.x;
+        float lambda = light.x * a.w;
+        weighted += lambda * min(reflected_bandwidth(light_bandwidth, b.y, max(curvature, 0.0), cos_outgoing, distance_to_eye),
+                                 vec2(frequency_limit * 1e6, frequency_limit));
+        weights += lambda;
+        second += light.y * a.w * a.w;
+        printed += (min(light_bandwidth, frequency_limit) + min(b.y, frequency_limit)) * b.x * light.y;
+    }
+    // All weights zero: nothing arrives, and a black pixel has no bandwidth.
+    vec2 nu = weights > 0.0 ? weighted / weights : vec2(0);
+    float image_bandwidth = min(nu.y * radians_per_pixel, nyquist);
+    // Where the surface is not known around the pixel, nothing may be interpolated.
+    if (curvature < 0.0) image_bandwidth = nyquist;
+    float scaled = image_bandwidth * bandwidth_scale;
+    float level = scaled > 0.0 ? clamp(floor(log2(nyquist / scaled)), 0.0, float(coarsest_level)) : float(coarsest_level);
+
+    float mean = weights / pilot_count;
+#if defined(VARIANCE_PRINTED)
+    float variance = 4.0 * pi * pi * printed / pilot_count;
+#else
+    float variance = max(0.0, second / pilot_count - mean * mean);
+#endif
+    imageStore(bandwidth, at, vec4(nu, image_bandwidth, max(curvature, 0.0)));
+    imageStore(prediction, at, vec4(variance, mean, 0, 0));
+    imageStore(levels, at, uvec4(uint(level)));
+}

@@ -1,0 +1,83 @@
+// Which pixels are shaded, and how much each deserves: a histogram from which the host plans the sample budget.
+#include "parents.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 3) uniform usamplerBuffer brdf_of;
+#if !defined(SHADE_ALL)
+layout(binding = 0, r8ui) readonly uniform uimage2D levels;
+layout(binding = 1, r32f) readonly uniform image2D variances;
+uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
+uniform int coarsest_level;
+#endif
+layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;  // 0: nothing, 1: interpolate, 2 + bin: shade
+layout(binding = 0, std430) buffer Counts {
+    uint covered, bent, saturated, unused;
+    uint histogram[];  // BRDF slot * BINS + bin
+} counts;
+
+void shade(ivec2 at, uint material, int bin) {
+    imageStore(decisions, at, uvec4(2 + bin));
+    atomicAdd(counts.histogram[texelFetch(brdf_of, int(material)).r * BINS + bin], 1u);
+}
+
+#if !defined(SHADE_ALL)
+
+// Least level and largest variance over the blocks that meet at a lattice point: all that its parents enclose.
+void around(ivec2 at, int level, out int least, out float variance) {
+    ivec2 size = textureSize(materials, 0);
+    ivec2 level_size = (size + (1 << level) - 1) >> level;
+    ivec2 block = at >> level;
+    uint low = 255u;
+    variance = 0.0;
+    for (int corner = 0; corner < 4; ++corner) {
+        ivec2 from = block - ivec2(corner & 1, corner >> 1);
+        if (any(lessThan(from, ivec2(0))) || any(greaterThanEqual(from, level_size))) continue;
+        from.y += int(pyramid_rows[level]);
+        low = min(low, imageLoad(levels, from).r);
+        variance = max(variance, imageLoad(variances, from).r);
+    }
+    least = int(low);
+}
+
+// Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
+// sqrt(area * variance), the area being that which the pixel is interpolated over. Constant variance (section 2.4):
+// N proportional to the variance.
+int share(float variance, int level) {
+    if (variance <= 0.0) return 0;
+#if defined(ALLOCATION_CONSTANT_VARIANCE)
+    float octave = log2(variance);
+#else
+    float octave = 0.5 * log2(variance) + float(level);
+#endif
+    return clamp(int(round(octave)) + BINS / 2, 0, BINS - 1);
+}
+
+#endif
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, textureSize(materials, 0)))) return;
+    uint material = texelFetch(materials, at, 0).r;
+    if (material == 0u) {
+        imageStore(decisions, at, uvec4(0));
+        return;
+    }
+    atomicAdd(counts.covered, 1u);
+    if (texelFetch(normals, at, 0).w > 0.0) atomicAdd(counts.bent, 1u);
+#if defined(SHADE_ALL)
+    shade(at, material, BINS / 2);
+#else
+    uint own = imageLoad(levels, at).r;
+    if (own == 0u) atomicAdd(counts.saturated, 1u);
+    int level = lattice_level(at, coarsest_level);
+    int least;
+    float variance;
+    around(at, level, least, variance);
+    bool interpolate = false;
+    if (level < coarsest_level && least > level) interpolate = parents_of(at, level, float(own)).balanced;
+    if (interpolate)
+        imageStore(decisions, at, uvec4(1));
+    else
+        shade(at, material, share(variance, min(level, int(own))));
+#endif
+}

@@ -1,0 +1,68 @@
+// What every pass shares: constants, the maps between directions and pictures, random bits.
+
+const float pi = 3.14159265358979;
+
+float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126, 0.7152, 0.0722)); }
+
+// Arc cosine for x in [0, 1], given 1 - x on its own so that small angles keep their digits: Abramowitz and Stegun 4.4.46,
+// error at most 2e-8.
+float acos_near(float x, float one_minus_x) {
+    float p = -0.0012624911;
+    p = p * x + 0.0066700901;
+    p = p * x - 0.0170881256;
+    p = p * x + 0.0308918810;
+    p = p * x - 0.0501743046;
+    p = p * x + 0.0889789874;
+    p = p * x - 0.2145988016;
+    p = p * x + 1.5707963050;
+    return sqrt(max(one_minus_x, 0.0)) * p;
+}
+
+float polar_angle(float cosine) {
+    float a = acos_near(abs(cosine), 1.0 - abs(cosine));
+    return cosine < 0.0 ? pi - a : a;
+}
+
+// Latitude-longitude maps: u, v in [0, 1], v down; +Y is up, u = 0.5 looks along +Z.
+vec2 latitude_longitude(vec3 d) {
+    float longitude = d.x == 0.0 && d.z == 0.0 ? 0.0 : atan(d.x, d.z);
+    return vec2(0.5 - longitude / (2.0 * pi), polar_angle(clamp(d.y, -1.0, 1.0)) / pi);
+}
+
+// The octahedral square around +Y, in [0, 1]^2 (src/bandwidth/octahedral.h).
+vec2 fold(vec2 p) { return (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0); }
+vec2 octahedral(vec3 d) {
+    vec2 p = d.xz / (abs(d.x) + abs(d.y) + abs(d.z));
+    return 0.5 * (d.y < 0.0 ? fold(p) : p) + 0.5;
+}
+vec3 octahedral_direction(vec2 square) {
+    vec2 p = 2.0 * square - 1.0;
+    float y = 1.0 - abs(p.x) - abs(p.y);
+    if (y < 0.0) p = fold(p);
+    return normalize(vec3(p.x, y, p.y));
+}
+
+// The frame in which wo has azimuth 0: columns tangent, bitangent, normal.
+mat3 local_frame(vec3 n, vec3 wo) {
+    vec3 along = wo - dot(wo, n) * n;
+    float squared = dot(along, along);
+    // Below this the azimuth is the rounding of wo (2^-23), and any tangent serves.
+    vec3 other = abs(n.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    vec3 tangent = squared > 1e-13 ? along * inversesqrt(squared) : normalize(cross(other, n));
+    return mat3(tangent, cross(n, tangent), n);
+}
+
+// PCG (O'Neill 2014) as a hash and as a generator.
+uint hash(uint value) {
+    uint state = value * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+uint next_random(inout uint state) {
+    state = state * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+// 24 bits, all that a float holds: in [0, 1).
+float unit(uint bits) { return float(bits >> 8) * 5.9604644775390625e-8; }

@@ -1,0 +1,112 @@
+// One material's lobe: drawing wi for wo by importance. A variant is compiled per kind: LOBE_TABLE (with BRDF_LINEAR for
+// trilinear lookup), LOBE_LAMBERT or LOBE_GGX. Local frame, wo at azimuth 0. The double-precision originals are
+// src/sampling/lobe_sampler.cpp and src/scene/brdf.cpp.
+
+#if defined(LOBE_TABLE)
+
+layout(binding = 2) uniform samplerBuffer brdf_cells;     // RGB / table_scale, and 1 where measured
+layout(binding = 3) uniform samplerBuffer lobe_x;         // start and width of each step of x
+layout(binding = 4) uniform samplerBuffer lobe_phi;       // start and width of each step of phi
+uniform float table_scale;
+
+const int half_cells = 90, diff_cells = 90, phi_cells = 180;
+
+#if defined(BRDF_LINEAR)
+vec3 table_value(float x, float theta_diff, float phi_diff) {
+    float h = clamp(x * half_cells - 0.5, 0.0, half_cells - 1.0);
+    float d = clamp(theta_diff * (2.0 / pi) * diff_cells - 0.5, 0.0, diff_cells - 1.0);
+    float p = phi_diff * (1.0 / pi) * phi_cells - 0.5;
+    int h0 = min(int(h), half_cells - 2), d0 = min(int(d), diff_cells - 2), p0 = int(floor(p));
+    vec3 f = vec3(h - h0, d - d0, p - p0);
+    vec4 sum = vec4(0);
+    for (int corner = 0; corner < 8; ++corner) {
+        ivec3 step = ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+        vec3 w = mix(1.0 - f, f, vec3(step));
+        int phi = (p0 + step.z + phi_cells) % phi_cells;
+        vec4 cell = texelFetch(brdf_cells, ((h0 + step.x) * diff_cells + d0 + step.y) * phi_cells + phi);
+        sum += w.x * w.y * w.z * cell.a * vec4(cell.rgb, 1.0);
+    }
+    return sum.a > 0.0 ? sum.rgb / sum.a : vec3(0);
+}
+#else
+vec3 table_value(float x, float theta_diff, float phi_diff) {
+    int h = min(int(x * half_cells), half_cells - 1);
+    int d = min(int(theta_diff * (2.0 / pi) * diff_cells), diff_cells - 1);
+    int p = min(int(phi_diff * (1.0 / pi) * phi_cells), phi_cells - 1);
+    return texelFetch(brdf_cells, (h * diff_cells + d) * phi_cells + p).rgb;
+}
+#endif
+
+int lobe_view(float cos_outgoing) { return min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1); }
+
+// weight = f cos(theta_i) / pdf; false: below the horizon, carries nothing.
+bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
+    weight = vec3(0);
+    float scaled_x = u.x * LOBE_RADIAL;
+    int k = int(scaled_x);
+    vec2 xs = texelFetch(lobe_x, view * LOBE_RADIAL + k).xy;
+    float x = xs.x + (scaled_x - k) * xs.y;
+
+    float scaled_phi = (u.y < 0.5 ? 2.0 * u.y : 2.0 - 2.0 * u.y) * LOBE_AZIMUTHAL;
+    int l = min(int(scaled_phi), LOBE_AZIMUTHAL - 1);
+    vec2 ps = texelFetch(lobe_phi, (view * LOBE_RADIAL + k) * LOBE_AZIMUTHAL + l).xy;
+    float phi = ps.x + (scaled_phi - l) * ps.y;
+
+    float theta = x * x * (0.5 * pi);
+    float sin_theta = sin(theta), cos_theta = cos(theta);
+    vec3 h = vec3(sin_theta * cos(phi), (u.y < 0.5 ? sin_theta : -sin_theta) * sin(phi), cos_theta);
+    float oh = dot(wo, h);
+    wi = 2.0 * oh * h - wo;
+    if (oh <= 0.0 || wi.z <= 0.0) return false;
+
+    float phi_y = wi.y * h.x - wi.x * h.y, phi_x = cos_theta * oh - wi.z;
+    float phi_diff = phi_x == 0.0 && phi_y == 0.0 ? 0.0 : atan(phi_y, phi_x);
+    if (phi_diff < 0.0) phi_diff += pi;
+    vec3 f = table_value(x, acos_near(min(oh, 1.0), 1.0 - oh), phi_diff);
+    float solid_angle = 4.0 * oh * sin_theta * pi * x;                              // d(wi) / d(x, phi)
+    float area = xs.y * ps.y * float(2 * LOBE_RADIAL * LOBE_AZIMUTHAL);             // 1 / density over (x, phi)
+    weight = f * (table_scale * wi.z * solid_angle * area);
+    return true;
+}
+
+#elif defined(LOBE_LAMBERT)
+
+uniform vec3 albedo;
+
+int lobe_view(float cos_outgoing) { return 0; }
+
+bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
+    float r = sqrt(u.x), phi = 2.0 * pi * u.y;
+    wi = vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
+    weight = albedo;
+    return true;
+}
+
+#else  // LOBE_GGX
+
+uniform float alpha;
+uniform vec3 f0;
+
+int lobe_view(float cos_outgoing) { return 0; }
+
+// Visible normals (Heitz 2018); f cos(theta_i) / pdf = F G2 / G1.
+bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
+    vec3 v = normalize(vec3(alpha * wo.x, 0.0, wo.z));
+    float r = sqrt(u.x), azimuth = 2.0 * pi * u.y;
+    float t1 = r * cos(azimuth), s = 0.5 * (1.0 + v.z);
+    float t2 = (1.0 - s) * sqrt(max(0.0, 1.0 - t1 * t1)) + s * r * sin(azimuth);
+    float t3 = sqrt(max(0.0, 1.0 - t1 * t1 - t2 * t2));
+    vec3 n = t1 * vec3(0, 1, 0) + t2 * vec3(-v.z, 0, v.x) + t3 * v;
+    vec3 h = normalize(vec3(alpha * n.x, alpha * n.y, max(n.z, 0.0)));
+    float oh = dot(wo, h);
+    wi = 2.0 * oh * h - wo;
+    weight = vec3(0);
+    if (wi.z <= 0.0) return false;
+    float a2 = alpha * alpha;
+    float si = sqrt(a2 + (1.0 - a2) * wi.z * wi.z), so = sqrt(a2 + (1.0 - a2) * wo.z * wo.z);
+    float c = 1.0 - oh, c2 = c * c;
+    weight = (f0 + (1.0 - f0) * (c2 * c2 * c)) * (wi.z * (wo.z + so) / (wo.z * si + wi.z * so));
+    return true;
+}
+
+#endif

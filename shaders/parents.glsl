@@ -1,0 +1,73 @@
+// Anisotropic bilateral weights of a pixel's parents (section 3.2). The lattice of level l holds the pixels whose
+// coordinates are multiples of 2^l; a pixel that is new on lattice l lies midway between two or four parents on
+// lattice l + 1.
+
+layout(binding = 0) uniform sampler2D positions;
+layout(binding = 1) uniform sampler2D normals;
+layout(binding = 2) uniform usampler2D materials;
+uniform vec3 screen_right;  // unit, world: along a row of the picture
+uniform vec3 screen_up;
+
+// The finest lattice's level, 0 .. coarsest, on which a pixel first appears.
+int lattice_level(ivec2 at, int coarsest) {
+    int bits = at.x | at.y;
+    return bits == 0 ? coarsest : min(findLSB(uint(bits)), coarsest);
+}
+
+// Chords that leave the tangent plane by more than a quarter of their length bridge a fold, not a surface: on a sphere it
+// is the chord of half a radian, over which shading cannot be linear.
+const float chord_slope = 0.25;
+// Uneven weights shift the mean away from the pixel; by at most this part of the way to a parent, or the pixel is shaded.
+const float centre_tolerance = 0.25;
+
+struct Parents {
+    int count;
+    ivec2 at[4];
+    float weight[4];
+    bool balanced;  // enough of them, evenly around the pixel
+};
+
+Parents parents_of(ivec2 at, int level, float pixel_level) {
+    ivec2 size = textureSize(materials, 0);
+    int step = 1 << level;
+    bvec2 odd = notEqual((at >> level) & 1, ivec2(0));
+    vec3 position = texelFetch(positions, at, 0).xyz;
+    vec3 normal = texelFetch(normals, at, 0).xyz;
+    uint material = texelFetch(materials, at, 0).r;
+    vec3 wo = -normalize(position);
+    float cosine = max(dot(normal, wo), 1e-6);  // the square below stays in range; such a pixel has level 0
+    vec2 axis = vec2(dot(normal, screen_right), -dot(normal, screen_up));
+    axis = dot(axis, axis) > 0.0 ? normalize(axis) : vec2(0);
+
+    Parents result;
+    result.count = 0;
+    float available = 0.0, all = 0.0, sum = 0.0;
+    vec2 centre = vec2(0);
+    for (int corner = 0; corner < 4; ++corner) {
+        ivec2 sign = ivec2(corner & 1, corner >> 1) * 2 - 1;
+        if (!odd.x && sign.x > 0) continue;
+        if (!odd.y && sign.y > 0) continue;
+        ivec2 offset = ivec2(odd.x ? sign.x : 0, odd.y ? sign.y : 0) * step;
+        ivec2 parent = at + offset;
+        all += 1.0;
+        if (any(lessThan(parent, ivec2(0))) || any(greaterThanEqual(parent, size))) continue;
+        if (texelFetch(materials, parent, 0).r != material) continue;
+        vec3 chord = texelFetch(positions, parent, 0).xyz - position;
+        float slope = dot(chord, normal) * inversesqrt(max(dot(chord, chord), 1e-37)) / chord_slope;
+        float g_z = exp(-slope * slope);
+        // g_a with M = R^T diag(1, 1 / cos^2) R, narrow along the projected normal, less the part that all directions share;
+        // in units of the spacing that the pixel's own bandwidth allows.
+        float along = dot(vec2(offset), axis) * exp2(-pixel_level);
+        float g_a = exp(-along * along * (1.0 / (cosine * cosine) - 1.0));
+        available += g_z;
+        float weight = g_z * max(g_a, 1e-30);
+        result.at[result.count] = parent;
+        result.weight[result.count] = weight;
+        result.count += 1;
+        sum += weight;
+        centre += weight * vec2(offset) / float(step);
+    }
+    result.balanced = available >= 0.5 * all && sum > 0.0 && length(centre) <= centre_tolerance * sum;
+    for (int i = 0; i < result.count; ++i) result.weight[i] /= sum;
+    return result;
+}

@@ -1,0 +1,98 @@
+#include "gl/device.h"
+
+#include <vector>
+
+#include "base/error.h"
+#include "gl/objects.h"
+#include "gl/shader_sources.h"
+
+namespace lightband::gl {
+namespace {
+
+void APIENTRY on_debug_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void* user) {
+    if (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR)
+        static_cast<const Device*>(user)->log(message);
+}
+
+std::string info_log(const Functions& gl, GLuint object, bool program) {
+    GLint length = 0;
+    (program ? gl.GetProgramiv(object, GL_INFO_LOG_LENGTH, &length) : gl.GetShaderiv(object, GL_INFO_LOG_LENGTH, &length));
+    std::vector<GLchar> log(size_t(length) + 1);
+    if (program)
+        gl.GetProgramInfoLog(object, length, nullptr, log.data());
+    else
+        gl.GetShaderInfoLog(object, length, nullptr, log.data());
+    return log.data();
+}
+
+std::unique_ptr<Program> link(const Functions& gl, const std::string& name, const std::string& definitions,
+                              const std::vector<std::pair<GLenum, std::string>>& stages) {
+    auto program = std::make_unique<Program>(gl, gl.CreateProgram());
+    for (const auto& [stage, file] : stages) {
+        const std::string source = shader_source(file, definitions);
+        const GLchar* characters = source.c_str();
+        const GLuint shader = gl.CreateShader(stage);
+        gl.ShaderSource(shader, 1, &characters, nullptr);
+        gl.CompileShader(shader);
+        GLint compiled = GL_FALSE;
+        gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+        const std::string log = compiled ? "" : info_log(gl, shader, false);
+        if (compiled) gl.AttachShader(program->name(), shader);
+        gl.DeleteShader(shader);
+        if (!compiled) throw Error(LB_ERROR_DEVICE, text("shader ", file, " does not compile: ", log));
+    }
+    gl.LinkProgram(program->name());
+    GLint linked = GL_FALSE;
+    gl.GetProgramiv(program->name(), GL_LINK_STATUS, &linked);
+    if (!linked) throw Error(LB_ERROR_DEVICE, text("program ", name, " does not link: ", info_log(gl, program->name(), true)));
+    return program;
+}
+
+}  // namespace
+
+Device::Device(uint32_t device, lb_log_callback log, void* log_user)
+    : context_(EglContext::create(device)), log_(log), log_user_(log_user) {
+    const EglContext::Current current(*context_);
+    gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_texture_size_);
+    gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texture_buffer_texels_);
+    if (log != nullptr) {
+        gl().Enable(GL_DEBUG_OUTPUT);
+        gl().Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        gl().DebugMessageCallback(on_debug_message, this);
+    }
+    this->log(text("rendering on ", name()));
+}
+
+Device::~Device() {
+    const EglContext::Current current(*context_);
+    programs_.clear();
+}
+
+void Device::log(const std::string& message) const {
+    if (log_ != nullptr) log_(log_user_, message.c_str());
+}
+
+const Program& Device::compute(const std::string& name, const std::string& definitions) {
+    std::unique_ptr<Program>& program = programs_[name + '\n' + definitions];
+    if (program == nullptr) program = link(gl(), name, definitions, {{GL_COMPUTE_SHADER, name + ".glsl"}});
+    return *program;
+}
+
+const Program& Device::graphics(const std::string& name) {
+    std::unique_ptr<Program>& program = programs_[name];
+    if (program == nullptr)
+        program = link(gl(), name, "", {{GL_VERTEX_SHADER, name + ".vert"}, {GL_FRAGMENT_SHADER, name + ".frag"}});
+    return *program;
+}
+
+void Device::check(const char* where) const {
+    const GLenum error = gl().GetError();
+    if (error == GL_NO_ERROR) return;
+    if (error == GL_OUT_OF_MEMORY) throw Error(LB_ERROR_LIMIT, text(where, ": the device is out of memory"));
+    throw Error(LB_ERROR_DEVICE, text(where, ": OpenGL error ", error));
+}
+
+Device::Guard::Guard(std::shared_ptr<Device> device)
+    : device_(std::move(device)), lock_(device_->mutex_), current_(*device_->context_) {}
+
+}  // namespace lightband::gl

@@ -1,0 +1,185 @@
+#include "gl/egl.h"
+
+#define EGL_NO_PLATFORM_SPECIFIC_TYPES
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <dlfcn.h>
+
+#include <cstring>
+#include <vector>
+
+#include "base/error.h"
+
+namespace lightband::gl {
+
+struct EglApi {
+    decltype(&eglGetProcAddress) GetProcAddress = nullptr;
+    decltype(&eglInitialize) Initialize = nullptr;
+    decltype(&eglBindAPI) BindAPI = nullptr;
+    decltype(&eglQueryAPI) QueryAPI = nullptr;
+    decltype(&eglQueryString) QueryString = nullptr;
+    decltype(&eglCreateContext) CreateContext = nullptr;
+    decltype(&eglDestroyContext) DestroyContext = nullptr;
+    decltype(&eglMakeCurrent) MakeCurrent = nullptr;
+    decltype(&eglGetCurrentContext) GetCurrentContext = nullptr;
+    decltype(&eglGetCurrentDisplay) GetCurrentDisplay = nullptr;
+    decltype(&eglGetCurrentSurface) GetCurrentSurface = nullptr;
+    decltype(&eglGetError) GetError = nullptr;
+    PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
+    PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;  // may be missing
+};
+
+namespace {
+
+// The library stays loaded until the process ends: drivers do not survive being unloaded.
+const EglApi& load_egl() {
+    static const EglApi api = [] {
+        void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
+        if (library == nullptr) throw Error(LB_ERROR_DEVICE, text("libEGL.so.1 cannot be loaded: ", dlerror()));
+        EglApi egl;
+        const auto load = [&](auto& function, const char* name) {
+            function = reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, name));
+            if (function == nullptr) throw Error(LB_ERROR_DEVICE, text("libEGL.so.1 has no ", name));
+        };
+        load(egl.GetProcAddress, "eglGetProcAddress");
+        load(egl.Initialize, "eglInitialize");
+        load(egl.BindAPI, "eglBindAPI");
+        load(egl.QueryAPI, "eglQueryAPI");
+        load(egl.QueryString, "eglQueryString");
+        load(egl.CreateContext, "eglCreateContext");
+        load(egl.DestroyContext, "eglDestroyContext");
+        load(egl.MakeCurrent, "eglMakeCurrent");
+        load(egl.GetCurrentContext, "eglGetCurrentContext");
+        load(egl.GetCurrentDisplay, "eglGetCurrentDisplay");
+        load(egl.GetCurrentSurface, "eglGetCurrentSurface");
+        load(egl.GetError, "eglGetError");
+        egl.GetPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
+            egl.GetProcAddress("eglGetPlatformDisplayEXT"));
+        if (egl.GetPlatformDisplay == nullptr)
+            throw Error(LB_ERROR_DEVICE, "libEGL.so.1 has no eglGetPlatformDisplayEXT");
+        egl.QueryDevices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(egl.GetProcAddress("eglQueryDevicesEXT"));
+        return egl;
+    }();
+    return api;
+}
+
+struct Candidate {
+    std::string name;
+    EGLDisplay display;
+};
+
+std::vector<Candidate> candidates(const EglApi& egl, std::string* attempts) {
+    std::vector<Candidate> result;
+    EGLDeviceEXT devices[32];
+    EGLint count = 0;
+    if (egl.QueryDevices != nullptr && egl.QueryDevices(32, devices, &count)) {
+        for (EGLint i = 0; i < count; ++i)
+            result.push_back({text("EGL device ", i),
+                              egl.GetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr)});
+    } else {
+        *attempts += "\n  EGL device platform: devices cannot be listed";
+    }
+    result.push_back({"EGL surfaceless platform",
+                      egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)});
+    return result;
+}
+
+bool is_software(const std::string& renderer) {
+    for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR"})
+        if (renderer.find(name) != std::string::npos) return true;
+    return false;
+}
+
+std::string hexadecimal(EGLint error) {
+    std::ostringstream out;
+    out << "EGL error 0x" << std::hex << error;
+    return out.str();
+}
+
+}  // namespace
+
+EglContext::EglContext(const EglApi& api, void* display) : api_(api), display_(display) {
+    if (display == EGL_NO_DISPLAY) throw Error(LB_ERROR_DEVICE, "no display");
+    EGLint major = 0, minor = 0;
+    if (!api.Initialize(display, &major, &minor)) throw Error(LB_ERROR_DEVICE, hexadecimal(api.GetError()));
+    const char* extensions = api.QueryString(display, EGL_EXTENSIONS);
+    for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_create_context"})
+        if (extensions == nullptr || std::strstr(extensions, needed) == nullptr)
+            throw Error(LB_ERROR_DEVICE, text("no ", needed));
+    const EGLenum api_before = api.QueryAPI();
+    if (!api.BindAPI(EGL_OPENGL_API)) throw Error(LB_ERROR_DEVICE, "no OpenGL");
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    context_ = api.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    const EGLint error = api.GetError();
+    api.BindAPI(api_before);
+    if (context_ == EGL_NO_CONTEXT)
+        throw Error(LB_ERROR_DEVICE, text("no OpenGL 4.5 core context (", hexadecimal(error), ")"));
+    load_functions();
+}
+
+void EglContext::load_functions() {
+    const char* missing = nullptr;
+#define LIGHTBAND_GL_LOAD(type, function)                                                        \
+    functions_.function = reinterpret_cast<type>(api_.GetProcAddress("gl" #function));           \
+    if (functions_.function == nullptr) missing = "gl" #function;
+    LIGHTBAND_GL_FUNCTIONS(LIGHTBAND_GL_LOAD)
+#undef LIGHTBAND_GL_LOAD
+    if (missing != nullptr) throw Error(LB_ERROR_DEVICE, text("the driver has no ", missing));
+    const Current current(*this);
+    const auto string = [&](GLenum name) {
+        const GLubyte* value = functions_.GetString(name);
+        return value != nullptr ? std::string(reinterpret_cast<const char*>(value)) : std::string("unknown");
+    };
+    name_ = string(GL_RENDERER) + ", OpenGL " + string(GL_VERSION);
+    software_ = is_software(name_);
+}
+
+EglContext::~EglContext() {
+    if (context_ != EGL_NO_CONTEXT) api_.DestroyContext(display_, context_);
+}
+
+std::unique_ptr<EglContext> EglContext::create(uint32_t device) {
+    const EglApi& egl = load_egl();
+    std::string attempts;
+    std::unique_ptr<EglContext> software;
+    for (const Candidate& candidate : candidates(egl, &attempts)) {
+        try {
+            std::unique_ptr<EglContext> context(new EglContext(egl, candidate.display));
+            if (!context->software() && device != LB_DEVICE_SOFTWARE) return context;
+            if (context->software() && device == LB_DEVICE_SOFTWARE) return context;
+            attempts += text("\n  ", candidate.name, ": ", context->name(),
+                             context->software() ? " is a software renderer" : " is hardware");
+            if (device == LB_DEVICE_ANY && software == nullptr) software = std::move(context);
+        } catch (const Error& error) {
+            attempts += text("\n  ", candidate.name, ": ", error.what());
+        }
+    }
+    if (software != nullptr) return software;
+    throw Error(LB_ERROR_DEVICE,
+                text("no ", device == LB_DEVICE_HARDWARE ? "hardware " : device == LB_DEVICE_SOFTWARE ? "software " : "",
+                     "OpenGL 4.5 device; tried:", attempts,
+                     device == LB_DEVICE_HARDWARE ? "\nSoftware rendering is chosen by LB_DEVICE_SOFTWARE or LB_DEVICE_ANY."
+                                                  : ""));
+}
+
+EglContext::Current::Current(const EglContext& context)
+    : context_(context),
+      display_(context.api_.GetCurrentDisplay()),
+      draw_(context.api_.GetCurrentSurface(EGL_DRAW)),
+      read_(context.api_.GetCurrentSurface(EGL_READ)),
+      previous_(context.api_.GetCurrentContext()) {
+    if (previous_ == context.context_) return;
+    if (!context.api_.MakeCurrent(context.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_))
+        throw Error(LB_ERROR_DEVICE, text("the context cannot be made current: ", hexadecimal(context.api_.GetError())));
+}
+
+EglContext::Current::~Current() {
+    if (previous_ == context_.context_) return;
+    if (previous_ != EGL_NO_CONTEXT)
+        context_.api_.MakeCurrent(display_, draw_, read_, previous_);
+    else
+        context_.api_.MakeCurrent(context_.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+}  // namespace lightband::gl
