@@ -54,6 +54,15 @@ inline void check(lb_result result) {
     }
 }
 
+// The text as C reads it: a zero byte within would hide the rest.
+inline const char* c_text(const std::string& text) {
+    if (text.find('\0') != std::string::npos) {
+        throw Exception(LB_ERROR_INVALID_ARGUMENT,
+                        "the name or path \"" + std::string(text.c_str()) + "...\" contains a zero byte");
+    }
+    return text.c_str();
+}
+
 // ---- Callbacks --------------------------------------------------------------------------------------------------
 
 // Receives messages of driver and library. What it throws is dropped: the C code between cannot pass it on.
@@ -134,7 +143,7 @@ Buffer map_field(lb_result (*map)(Raw, const char*, lb_buffer*, lb_buffer_view*)
                  std::shared_ptr<const Log> log) {
     lb_buffer raw = nullptr;
     lb_buffer_view view = LB_BUFFER_VIEW_INIT;
-    check(map(owner, name.c_str(), &raw, &view));
+    check(map(owner, c_text(name), &raw, &view));
     return Buffer(raw, view, std::move(log));
 }
 
@@ -227,18 +236,18 @@ public:
     using Handle::Handle;
 
     // Settings by name; lb_setting_at lists them.
-    void set(const std::string& name, double value) { check(lb_frame_set_number(get(), name.c_str(), value)); }
+    void set(const std::string& name, double value) { check(lb_frame_set_number(get(), c_text(name), value)); }
     void set(const std::string& name, const std::string& choice) {
-        check(lb_frame_set_choice(get(), name.c_str(), choice.c_str()));
+        check(lb_frame_set_choice(get(), c_text(name), c_text(choice)));
     }
     double number(const std::string& name) const {
         double value = 0;
-        check(lb_frame_get_number(get(), name.c_str(), &value));
+        check(lb_frame_get_number(get(), c_text(name), &value));
         return value;
     }
     std::string choice(const std::string& name) const {
         const char* value = nullptr;
-        check(lb_frame_get_choice(get(), name.c_str(), &value));
+        check(lb_frame_get_choice(get(), c_text(name), &value));
         return value;
     }
 
@@ -269,7 +278,7 @@ public:
 
     // names: comma-separated fields for an .exr file; empty: color alone.
     void save(const std::string& path, const std::string& names = "", float exposure = 0) const {
-        check(lb_frame_save(get(), path.c_str(), names.empty() ? nullptr : names.c_str(), exposure));
+        check(lb_frame_save(get(), c_text(path), names.empty() ? nullptr : c_text(names), exposure));
     }
 
 private:
@@ -314,15 +323,15 @@ public:
         return software != 0;
     }
 
-    Brdf load_brdf(const std::string& path) const { return make<Brdf>(lb_brdf_load, path.c_str()); }
-    Brdf builtin_brdf(const std::string& name) const { return make<Brdf>(lb_brdf_builtin, name.c_str()); }
+    Brdf load_brdf(const std::string& path) const { return make<Brdf>(lb_brdf_load, c_text(path)); }
+    Brdf builtin_brdf(const std::string& name) const { return make<Brdf>(lb_brdf_builtin, c_text(name)); }
     // values: [90][90][180][3], 1/steradian.
     Brdf table_brdf(const float* values, size_t count) const { return make<Brdf>(lb_brdf_create_table, values, count); }
     Brdf lambert(const Vector& albedo) const { return make<Brdf>(lb_brdf_create_lambert, albedo.data()); }
     Brdf ggx(float alpha, const Vector& f0) const { return make<Brdf>(lb_brdf_create_ggx, alpha, f0.data()); }
 
     Environment load_environment(const std::string& path) const {
-        return make<Environment>(lb_environment_load, path.c_str());
+        return make<Environment>(lb_environment_load, c_text(path));
     }
     // rgb: [height][width][3], radiance.
     Environment environment(uint32_t width, uint32_t height, const float* rgb) const {
@@ -331,7 +340,7 @@ public:
 
     Mesh mesh(const lb_mesh_desc& desc) const { return make<Mesh>(lb_mesh_create, &desc); }
     Mesh builtin_mesh(const std::string& name, uint32_t resolution = 0) const {
-        return make<Mesh>(lb_mesh_builtin, name.c_str(), resolution);
+        return make<Mesh>(lb_mesh_builtin, c_text(name), resolution);
     }
 
     Scene scene() const { return make<Scene>(lb_scene_create); }
@@ -344,7 +353,7 @@ private:
         desc.device = options.device;
         desc.log = log ? &forward_log : nullptr;
         desc.log_user = const_cast<Log*>(log.get());
-        desc.cache_path = options.cache_path ? options.cache_path->c_str() : nullptr;
+        desc.cache_path = options.cache_path ? c_text(*options.cache_path) : nullptr;
         lb_context raw = nullptr;
         check(lb_context_create(&desc, &raw));
         return Handle(raw, std::move(log));

@@ -1,0 +1,76 @@
+"""Shading of measured materials by bandwidth prediction.
+
+    import lightband
+
+    context = lightband.Context()
+    scene = context.scene()
+    scene.add(context.builtin_mesh("sphere"), context.load_brdf("nickel.binary"))
+    scene.environment = context.load_environment("forest.exr")
+    scene.camera(eye=(0, 0, 3), target=(0, 0, 0))
+    frame = context.frame(512, 512)
+    frame.render(scene)
+    frame.save("nickel.exr", fields=["color", "bandwidth_image"])
+    print(frame.bandwidth_image.max(), frame.stats)
+
+Units are metres, radians and cycles; radiance is linear with Rec. 709 primaries; rows run top-down. Directions `wi`
+(to the light) and `wo` (to the eye) are in the local frame, whose +Z is the normal.
+"""
+
+from . import errors
+from ._lightband import (
+    Brdf,
+    Buffer,
+    Context,
+    Environment,
+    Frame,
+    Mesh,
+    Scene,
+    __version__,
+    buffer_names,
+    builtin_materials,
+    settings,
+)
+from ._records import FrameStats, MeshStats, Setting, Settings
+from .errors import (
+    Cancelled,
+    DeviceError,
+    Error,
+    FileError,
+    FormatError,
+    InternalError,
+    InvalidArgument,
+    InvalidHandle,
+    LimitError,
+    OutOfMemory,
+    StateError,
+)
+
+__all__ = [
+    "Brdf",
+    "Buffer",
+    "Cancelled",
+    "Context",
+    "DeviceError",
+    "Environment",
+    "Error",
+    "FileError",
+    "FormatError",
+    "Frame",
+    "FrameStats",
+    "InternalError",
+    "InvalidArgument",
+    "InvalidHandle",
+    "LimitError",
+    "Mesh",
+    "MeshStats",
+    "OutOfMemory",
+    "Scene",
+    "Setting",
+    "Settings",
+    "StateError",
+    "__version__",
+    "buffer_names",
+    "builtin_materials",
+    "errors",
+    "settings",
+]

@@ -1,0 +1,100 @@
+"""What the extension module returns: plain records, and the settings of a frame as a mapping."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, MutableMapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from . import _lightband
+
+if TYPE_CHECKING:
+    from ._lightband import Frame
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One row of the table of settings."""
+
+    name: str
+    type: Literal["integer", "real", "choice"]
+    minimum: float | None
+    """None for a choice."""
+    maximum: float | None
+    """None for a choice."""
+    default: float | str
+    choices: tuple[str, ...]
+    """Empty for a number."""
+    documentation: str
+
+
+@dataclass(frozen=True)
+class FrameStats:
+    """Counts and times of a rendered frame."""
+
+    width: int
+    height: int
+    frames: int
+    """Frames averaged: the setting "accumulate"."""
+    covered_pixels: int
+    """Pixels that see a mesh."""
+    shaded_pixels: int
+    """Those whose integral was computed; the others were interpolated."""
+    samples: int
+    """Light samples drawn, counted by the shaders themselves, all frames."""
+    saturated_pixels: int
+    """Covered pixels whose predicted bandwidth reached 0.5 cycles per pixel."""
+    bent_normals: int
+    """Covered pixels whose shading normal faced away and was turned to the eye."""
+    device_bytes: int
+    """Device memory held by the scene and this frame."""
+    milliseconds: float
+    """The whole render call."""
+    bandwidth_milliseconds: float
+    """Of it: everything that prediction adds (bandwidth, pyramids, lists)."""
+    shading_milliseconds: float
+    """Of it: the shading integral."""
+
+
+@dataclass(frozen=True)
+class MeshStats:
+    """Size of a mesh."""
+
+    vertices: int
+    triangles: int
+    """Those kept."""
+    dropped_triangles: int
+    """Those of zero area."""
+    bounds_min: tuple[float, float, float]
+    """Metres."""
+    bounds_max: tuple[float, float, float]
+    """Metres."""
+
+
+class Settings(MutableMapping[str, "float | str"]):
+    """The settings of a frame: reads and writes go to the frame at once."""
+
+    def __init__(self, frame: Frame) -> None:
+        self._frame = frame
+        self._defaults = {setting.name: setting.default for setting in _lightband.settings()}
+
+    def __getitem__(self, name: str) -> float | str:
+        if name not in self._defaults:
+            raise KeyError(name)
+        return self._frame[name]
+
+    def __setitem__(self, name: str, value: float | str) -> None:
+        self._frame[name] = value
+
+    def __delitem__(self, name: str) -> None:
+        """Restores the default."""
+        self._frame[name] = self._defaults[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._defaults)
+
+    def __len__(self) -> int:
+        return len(self._defaults)
+
+    def __repr__(self) -> str:
+        return f"Settings({dict(self)})"
