@@ -108,15 +108,15 @@ size_t next_attribute(const std::vector<uint8_t>& bytes, size_t position, const 
     uint32_t size = 0;
     for (size_t i = 1; i <= size_field; ++i) size = size << 8 | bytes[value - i];
     if (size > bytes.size() - value)
-        throw Error(LB_ERROR_FORMAT,
-                    text(name, ": header attribute ",
-                         printable(std::string(bytes.begin() + position, bytes.begin() + name_end)), " announces ", size, " bytes, but only ", bytes.size() - value, " follow"));
+        throw Error(LB_ERROR_FORMAT, text(name, ": header attribute ",
+                                          printable(std::string(bytes.begin() + position, bytes.begin() + name_end)),
+                                          " announces ", size, " bytes, but only ", bytes.size() - value, " follow"));
     return value + size;
 }
 
-// OpenEXR reserves an attribute's announced size, up to 2 GiB, before it looks whether the file holds as much. This walk
-// over the headers ("OpenEXR File Layout", sections "Version Field" and "Header") looks first; all other faults of the
-// headers are left to OpenEXR.
+// OpenEXR reserves an attribute's announced size, up to 2 GiB, before it looks whether the file holds as much. This
+// walk over the headers ("OpenEXR File Layout", sections "Version Field" and "Header") looks first; all other faults of
+// the headers are left to OpenEXR.
 void check_attribute_sizes(const std::vector<uint8_t>& bytes, const std::string& name) {
     constexpr size_t version_field = 4, first_header = 8;
     constexpr uint8_t multi_part_flag = 0x10;  // in the second byte of the version field
@@ -134,9 +134,9 @@ void check_size(const Imf::Header& header, const std::string& name) {
     const int64_t width = int64_t(window.max.x) - window.min.x + 1;
     const int64_t height = int64_t(window.max.y) - window.min.y + 1;
     if (width < 1 || height < 1 || width > max_map_width || height > max_map_height)
-        throw Error(LB_ERROR_FORMAT, text(name, ": data window of ", width, " x ", height,
-                                          " texels is outside the limits 1 x 1 and ", max_map_width, " x ",
-                                          max_map_height));
+        throw Error(LB_ERROR_FORMAT,
+                    text(name, ": data window of ", width, " x ", height, " texels is outside the limits 1 x 1 and ",
+                         max_map_width, " x ", max_map_height));
     if (!header.hasTileDescription()) return;
     const Imf::TileDescription& tile = header.tileDescription();
     if (tile.xSize > max_map_width || tile.ySize > max_map_height)
@@ -206,8 +206,9 @@ RgbImage read_first_colour(const std::vector<uint8_t>& bytes, const std::string&
         check_size(file.header(part), name);
         return colour == Colour::luminance_chroma ? read_luminance_chroma(bytes, name) : read_part(file, part, colour);
     }
-    throw Error(LB_ERROR_FORMAT, text(name, ": no colour: expected channels R, G, B or Y at full resolution, or Y with "
-                                            "RY, BY at half resolution in the first part; found: ",
+    throw Error(LB_ERROR_FORMAT, text(name,
+                                      ": no colour: expected channels R, G, B or Y at full resolution, or Y with "
+                                      "RY, BY at half resolution in the first part; found: ",
                                       printable(channel_names(file))));
 }
 
@@ -232,13 +233,14 @@ namespace {
 void check_channels(const std::string& path, uint32_t width, uint32_t height,
                     const std::vector<NamedChannel>& channels) {
     const auto reject = [&](const std::string& what) { throw Error(LB_ERROR_INVALID_ARGUMENT, path + ": " + what); };
-    const uint32_t largest = 1u << 30;  // OpenEXR's limit on coordinates, half of the range of int
+    constexpr size_t longest_name = Imf::Name::MAX_LENGTH;
+    constexpr uint32_t largest = 1u << 30;  // OpenEXR's limit on coordinates, half of the range of int
     if (width == 0 || height == 0 || width > largest || height > largest)
         reject(text("a picture of ", width, " x ", height, " pixels cannot be written"));
     if (channels.empty()) reject("a picture without channels cannot be written");
     for (const NamedChannel& channel : channels) {
-        if (channel.name.empty() || channel.name.size() > size_t(Imf::Name::MAX_LENGTH))
-            reject(text("channel name '", channel.name, "' is not of 1 to ", Imf::Name::MAX_LENGTH, " characters"));
+        if (channel.name.empty() || channel.name.size() > longest_name)
+            reject(text("channel name '", channel.name, "' is not of 1 to ", longest_name, " characters"));
         if (channel.values.size() != size_t(width) * height)
             reject(text("channel ", channel.name, " has ", channel.values.size(), " values, expected ", width, " x ",
                         height));

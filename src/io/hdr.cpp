@@ -64,7 +64,9 @@ private:
 
 // ---- Header -------------------------------------------------------------------------------------
 
-bool starts_with(std::string_view line, std::string_view start) { return line.substr(0, start.size()) == start; }
+bool starts_with(std::string_view line, std::string_view start) {
+    return line.substr(0, start.size()) == start;
+}
 
 // Cuts the next word, ended by blanks, off the front of line.
 std::string_view take_word(std::string_view& line) {
@@ -187,8 +189,7 @@ void take_components(Reader& reader, std::vector<Rgbe>& scanline) {
             const size_t count = repeated ? code - 128 : code;
             if (count == 0 || count > scanline.size() - x) reader.fail("Radiance scanline: a run does not fit");
             const uint8_t value = repeated ? reader.take() : 0;
-            for (const size_t end = x + count; x < end; ++x)
-                scanline[x][component] = repeated ? value : reader.take();
+            for (const size_t end = x + count; x < end; ++x) scanline[x][component] = repeated ? value : reader.take();
         }
     }
 }
@@ -218,8 +219,8 @@ void take_texels(Reader& reader, std::vector<Rgbe>& scanline) {
 void take_scanline(Reader& reader, std::vector<Rgbe>& scanline) {
     constexpr size_t shortest = 8, longest = 0x7fff;  // MINELEN and MAXELEN of Radiance's color.c
     const Rgbe start = reader.peek_texel();
-    const bool by_components = scanline.size() >= shortest && scanline.size() <= longest && start[0] == 2 &&
-                               start[1] == 2 && start[2] < 128;
+    const bool by_components =
+        scanline.size() >= shortest && scanline.size() <= longest && start[0] == 2 && start[1] == 2 && start[2] < 128;
     if (!by_components) return take_texels(reader, scanline);
     const size_t length = size_t(start[2]) << 8 | start[3];
     if (length != scanline.size())

@@ -113,7 +113,9 @@ BrdfTable parse_merl(const std::vector<uint8_t>& bytes, const std::string& name)
     return table;
 }
 
-BrdfTable read_merl(const std::string& path) { return parse_merl(read_file(path, file_bytes), path); }
+BrdfTable read_merl(const std::string& path) {
+    return parse_merl(read_file(path, file_bytes), path);
+}
 
 void write_merl(const std::string& path, const BrdfTable& table) {
     if (table.rgb.size() != cell_count * 3)

@@ -6,9 +6,9 @@
 
 namespace lightband::io {
 
-// The first 80 characters; whatever is not printable ASCII shows as '?'.
+// The first 200 characters; whatever is not printable ASCII shows as '?'.
 inline std::string printable(std::string_view words) {
-    constexpr size_t longest = 80;
+    constexpr size_t longest = 200;
     std::string shown(words.substr(0, longest));
     for (char& c : shown)
         if (c < ' ' || c > '~') c = '?';
