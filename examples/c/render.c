@@ -2,11 +2,10 @@
  *
  *     ./render courtyard.exr [software]
  */
+#include <lightband/lightband.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <lightband/lightband.h>
 
 /* Every call returns a result; the text says what went wrong, and where. */
 static void check(lb_result result, const char* what) {
@@ -49,7 +48,7 @@ int main(int argc, char** argv) {
     lb_brdf gold = NULL;
     lb_mesh knot = NULL;
     check(lb_environment_load(context, argv[1], &environment), "environment");
-    check(lb_brdf_builtin(context, "gold", &gold), "material");
+    check(lb_brdf_builtin(context, "rough-gold", &gold), "material");
     check(lb_mesh_builtin(context, "knot", 0, &knot), "mesh");
 
     lb_camera_desc camera = LB_CAMERA_DESC_INIT;

@@ -4,9 +4,8 @@
 //     ./render courtyard.exr [software]
 #include <cstdio>
 #include <exception>
-#include <string>
-
 #include <lightband/lightband.hpp>
+#include <string>
 
 // Mean over the pixels that see the sphere, in cycles per pixel.
 static double mean_bandwidth(const lightband::Frame& frame) {

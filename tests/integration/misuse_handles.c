@@ -33,8 +33,10 @@ static const lb_mesh_desc mesh_desc = {sizeof(lb_mesh_desc), 3, triangle, NULL, 
 static const lb_camera_desc camera = {sizeof(lb_camera_desc), {0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 0, 0, 0};
 
 /* The calls, all arguments but the handle valid. */
-#define CALL(name, arguments) \
-    static lb_result with_##name(void* handle) { return name arguments; }
+#define CALL(name, arguments)                    \
+    static lb_result with_##name(void* handle) { \
+        return name arguments;                   \
+    }
 
 CALL(lb_context_retain, (handle))
 CALL(lb_context_device_name, (handle, &out.text))
@@ -76,14 +78,18 @@ CALL(lb_frame_save, (handle, "never_written.exr", NULL, 0.0f))
 CALL(lb_buffer_retain, (handle))
 
 /* Handles that are not the first argument. */
-static lb_result environment_of_a_scene(void* handle) { return lb_scene_set_environment(world.scene, handle); }
+static lb_result environment_of_a_scene(void* handle) {
+    return lb_scene_set_environment(world.scene, handle);
+}
 static lb_result mesh_of_an_instance(void* handle) {
     return lb_scene_add(world.scene, handle, world.brdf, NULL, &out.index);
 }
 static lb_result brdf_of_an_instance(void* handle) {
     return lb_scene_add(world.scene, world.mesh, handle, NULL, &out.index);
 }
-static lb_result scene_of_a_render(void* handle) { return lb_frame_render(world.frame, handle, NULL, NULL); }
+static lb_result scene_of_a_render(void* handle) {
+    return lb_frame_render(world.frame, handle, NULL, NULL);
+}
 
 static const struct call {
     const char* name;
@@ -148,25 +154,42 @@ static void* make_kind(enum kind kind) {
     struct world made;
     memset(&made, 0, sizeof(made));
     switch (kind) {
-        case CONTEXT: return make_software_context();
-        case BRDF: assert_ok(lb_brdf_create_lambert(world.context, grey, &made.brdf)); return made.brdf;
-        case ENVIRONMENT: return make_flat_environment(world.context, 1.0f);
-        case MESH: assert_ok(lb_mesh_create(world.context, &mesh_desc, &made.mesh)); return made.mesh;
-        case SCENE: assert_ok(lb_scene_create(world.context, &made.scene)); return made.scene;
-        case FRAME: return render_frame(&world, 8, 8);
-        default: return make_buffer();
+        case CONTEXT:
+            return make_software_context();
+        case BRDF:
+            assert_ok(lb_brdf_create_lambert(world.context, grey, &made.brdf));
+            return made.brdf;
+        case ENVIRONMENT:
+            return make_flat_environment(world.context, 1.0f);
+        case MESH:
+            assert_ok(lb_mesh_create(world.context, &mesh_desc, &made.mesh));
+            return made.mesh;
+        case SCENE:
+            assert_ok(lb_scene_create(world.context, &made.scene));
+            return made.scene;
+        case FRAME:
+            return render_frame(&world, 8, 8);
+        default:
+            return make_buffer();
     }
 }
 
 static lb_result release_kind(enum kind kind, void* handle) {
     switch (kind) {
-        case CONTEXT: return lb_context_release(handle);
-        case BRDF: return lb_brdf_release(handle);
-        case ENVIRONMENT: return lb_environment_release(handle);
-        case MESH: return lb_mesh_release(handle);
-        case SCENE: return lb_scene_release(handle);
-        case FRAME: return lb_frame_release(handle);
-        default: return lb_buffer_release(handle);
+        case CONTEXT:
+            return lb_context_release(handle);
+        case BRDF:
+            return lb_brdf_release(handle);
+        case ENVIRONMENT:
+            return lb_environment_release(handle);
+        case MESH:
+            return lb_mesh_release(handle);
+        case SCENE:
+            return lb_scene_release(handle);
+        case FRAME:
+            return lb_frame_release(handle);
+        default:
+            return lb_buffer_release(handle);
     }
 }
 

@@ -2,13 +2,13 @@
 #ifndef LIGHTBAND_TESTS_SUPPORT_H
 #define LIGHTBAND_TESTS_SUPPORT_H
 
-/* cmocka.h wants these four first. */
+/* clang-format off: cmocka.h wants these four first. */
+#include <cmocka.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <cmocka.h>
+/* clang-format on */
 
 #include "lightband/lightband.h"
 

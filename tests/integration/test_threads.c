@@ -15,7 +15,9 @@ struct worker {
     int failures;
 };
 
-static void try_call(struct worker* worker, lb_result result) { worker->failures += result != LB_OK; }
+static void try_call(struct worker* worker, lb_result result) {
+    worker->failures += result != LB_OK;
+}
 
 /* What make_objects builds, in a context that is given. */
 static void build_scene(struct worker* worker, lb_context context, lb_scene* scene) {
@@ -150,7 +152,8 @@ static void* fail_elsewhere(void* argument) {
 static void message_belongs_to_its_thread(void** state) {
     (void)state;
     struct worker worker = {0};
-    assert_refused(lb_brdf_builtin(world.context, "unobtainium", &world.brdf), LB_ERROR_INVALID_ARGUMENT, "unobtainium");
+    assert_refused(lb_brdf_builtin(world.context, "unobtainium", &world.brdf), LB_ERROR_INVALID_ARGUMENT,
+                   "unobtainium");
     assert_int_equal(pthread_create(&worker.thread, NULL, fail_elsewhere, &worker), 0);
     assert_int_equal(pthread_join(worker.thread, NULL), 0);
     assert_int_equal(worker.failures, 0);
@@ -183,10 +186,8 @@ static void context_moves_between_threads(void** state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_contexts_in_two_threads),
-        cmocka_unit_test(one_context_in_two_threads),
-        cmocka_unit_test(references_are_counted_across_threads),
-        cmocka_unit_test(message_belongs_to_its_thread),
+        cmocka_unit_test(two_contexts_in_two_threads),           cmocka_unit_test(one_context_in_two_threads),
+        cmocka_unit_test(references_are_counted_across_threads), cmocka_unit_test(message_belongs_to_its_thread),
         cmocka_unit_test(context_moves_between_threads),
     };
     return cmocka_run_group_tests_name("threads", tests, render_expected, release_world);
