@@ -1,0 +1,27 @@
+// A reflectance given by formulas: what the built-in tables are filled from.
+#pragma once
+
+#include <cstddef>
+
+#include "base/math.h"
+#include "scene/brdf_table.h"
+#include "scene/direction_pair.h"
+
+namespace lightband {
+
+class ReflectanceModel {
+public:
+    virtual ~ReflectanceModel() = default;
+
+    // RGB in 1/steradian for a pair above the horizon. Reciprocal.
+    virtual Vec3 value(const DirectionPair& pair) const = 0;
+};
+
+// The model at the centre of one cell of the MERL layout, counted as in BrdfTable::cell; -1 in all channels where the
+// centre lies below the horizon. LB_ERROR_INTERNAL for a value that is negative or not finite.
+Vec3 cell_value(const ReflectanceModel& model, size_t cell);
+
+// The model at the centre of every cell.
+BrdfTable tabulated(const ReflectanceModel& model);
+
+}  // namespace lightband
