@@ -345,25 +345,26 @@ typedef struct lb_buffer_view {
  *   sample_count        uint32  [H][W]     light samples drawn here
  *   variance_predicted  float32 [H][W]     radiance^2: predicted variance of one light sample's luminance (eq. 9)
  *   variance_measured   float32 [H][W]     radiance^2: the same, from the samples drawn here; 0 where fewer than two
- *   level_pyramid       float32 [R][W]     the levels' min pyramid: level 0 in rows 0 .. H-1, level 1 (of half
- *                                          size, rounded up) below it, and so on; unused elements hold 0
+ *   level_pyramid       uint8   [R][W]     the levels' min pyramid: level 0 in rows 0 .. H-1, level 1 (of half
+ *                                          size, rounded up) below it, and so on; 255 where nothing is seen
  *   variance_pyramid    float32 [R][W]     the relative variances' max pyramid, laid out the same way
  *
- * A frame of method "reference" has no bandwidth, level, predicted or pyramid field: LB_ERROR_INVALID_STATE. */
+ * A frame of method "reference" has no curvature, bandwidth, level, predicted or pyramid field:
+ * LB_ERROR_INVALID_STATE. */
 LB_API lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_buffer_view* view);
 LB_API uint32_t lb_frame_buffer_count(void);
 LB_API const char* lb_frame_buffer_name(uint32_t index);
 
 /* Fields of a map:
  *   radiance   float32 [H][W][3]  as loaded
- *   bandwidth  float32 [S][S]     cycles/radian on the octahedral square (docs/conventions.md) */
+ *   bandwidth  float32 [S][S]     cycles/radian on the octahedral square (docs/conventions.md); 1e9 where unbounded */
 LB_API lb_result lb_environment_map(lb_environment environment, const char* name, lb_buffer* buffer,
                                     lb_buffer_view* view);
 
 /* Fields of a material:
  *   table      float32 [90][90][180][3]  1/steradian (tabulated materials alone; else LB_ERROR_INVALID_STATE)
- *   bandwidth  float32 [32][16][16]      cycles/radian of the lobe: views in steps of cos(theta_o), then the square
- *                                        of incident directions (docs/conventions.md) */
+ *   bandwidth  float32 [32][64][64]      cycles/radian of the lobe, 1e9 where unbounded: views in steps of
+ *                                        cos(theta_o), then the square of incident directions (docs/conventions.md) */
 LB_API lb_result lb_brdf_map(lb_brdf brdf, const char* name, lb_buffer* buffer, lb_buffer_view* view);
 
 /* Writes a frame's fields. path ends in ".exr": float channels, one group per field, named "R", "G", "B", "A" for

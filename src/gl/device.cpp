@@ -17,12 +17,12 @@ void APIENTRY on_debug_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, con
 std::string info_log(const Functions& gl, GLuint object, bool program) {
     GLint length = 0;
     (program ? gl.GetProgramiv(object, GL_INFO_LOG_LENGTH, &length) : gl.GetShaderiv(object, GL_INFO_LOG_LENGTH, &length));
-    std::vector<GLchar> log(size_t(length) + 1);
+    std::vector<GLchar> characters(size_t(length) + 1);
     if (program)
-        gl.GetProgramInfoLog(object, length, nullptr, log.data());
+        gl.GetProgramInfoLog(object, length, nullptr, characters.data());
     else
-        gl.GetShaderInfoLog(object, length, nullptr, log.data());
-    return log.data();
+        gl.GetShaderInfoLog(object, length, nullptr, characters.data());
+    return characters.data();
 }
 
 std::unique_ptr<Program> link(const Functions& gl, const std::string& name, const std::string& definitions,
@@ -36,10 +36,10 @@ std::unique_ptr<Program> link(const Functions& gl, const std::string& name, cons
         gl.CompileShader(shader);
         GLint compiled = GL_FALSE;
         gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-        const std::string log = compiled ? "" : info_log(gl, shader, false);
+        const std::string complaint = compiled ? "" : info_log(gl, shader, false);
         if (compiled) gl.AttachShader(program->name(), shader);
         gl.DeleteShader(shader);
-        if (!compiled) throw Error(LB_ERROR_DEVICE, text("shader ", file, " does not compile: ", log));
+        if (!compiled) throw Error(LB_ERROR_DEVICE, text("shader ", file, " does not compile: ", complaint));
     }
     gl.LinkProgram(program->name());
     GLint linked = GL_FALSE;
@@ -50,17 +50,17 @@ std::unique_ptr<Program> link(const Functions& gl, const std::string& name, cons
 
 }  // namespace
 
-Device::Device(uint32_t device, lb_log_callback log, void* log_user)
-    : context_(EglContext::create(device)), log_(log), log_user_(log_user) {
+Device::Device(uint32_t device, lb_log_callback callback, void* user)
+    : context_(EglContext::create(device)), log_(callback), log_user_(user) {
     const EglContext::Current current(*context_);
     gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_texture_size_);
     gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texture_buffer_texels_);
-    if (log != nullptr) {
+    if (callback != nullptr) {
         gl().Enable(GL_DEBUG_OUTPUT);
         gl().Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
         gl().DebugMessageCallback(on_debug_message, this);
     }
-    this->log(text("rendering on ", name()));
+    log(text("rendering on ", name()));
 }
 
 Device::~Device() {

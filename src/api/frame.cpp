@@ -1,0 +1,128 @@
+// lb_frame and its settings.
+#include <algorithm>
+#include <cstring>
+
+#include "api/border.h"
+#include "frame/save.h"
+
+using namespace lightband;
+using namespace lightband::api;
+
+extern "C" {
+
+lb_result lb_frame_create(lb_context context, uint32_t width, uint32_t height, lb_frame* frame) {
+    return border([&] {
+        require(frame, "frame");
+        give(frames(), std::make_shared<Frame>(contexts().get(context, "context")->device, width, height), frame);
+    });
+}
+
+lb_result lb_frame_set_number(lb_frame frame, const char* name, double value) {
+    return border([&] {
+        require(name, "name");
+        const auto target = frames().get(frame, "frame");
+        const gl::Device::Guard guard(target->device());
+        target->settings.set_number(name, value);
+    });
+}
+
+lb_result lb_frame_set_choice(lb_frame frame, const char* name, const char* value) {
+    return border([&] {
+        require(name, "name");
+        require(value, "value");
+        const auto target = frames().get(frame, "frame");
+        const gl::Device::Guard guard(target->device());
+        target->settings.set_choice(name, value);
+    });
+}
+
+lb_result lb_frame_get_number(lb_frame frame, const char* name, double* value) {
+    return border([&] {
+        require(name, "name");
+        require(value, "value");
+        const auto source = frames().get(frame, "frame");
+        const gl::Device::Guard guard(source->device());
+        *value = source->settings.number(name);
+    });
+}
+
+lb_result lb_frame_get_choice(lb_frame frame, const char* name, const char** value) {
+    return border([&] {
+        require(name, "name");
+        require(value, "value");
+        const auto source = frames().get(frame, "frame");
+        const gl::Device::Guard guard(source->device());
+        *value = source->settings.choice(name);
+    });
+}
+
+uint32_t lb_setting_count(void) { return Settings::count(); }
+
+lb_result lb_setting_at(uint32_t index, lb_setting_info* info) {
+    return border([&] {
+        if (index >= Settings::count())
+            throw Error(LB_ERROR_INVALID_ARGUMENT, text("index is ", index, "; there are ", Settings::count(), " settings"));
+        write_struct(info, Settings::info(index), "info");
+    });
+}
+
+lb_result lb_frame_render(lb_frame frame, lb_scene scene, lb_progress_callback progress, void* user) {
+    return border([&] {
+        const auto target = frames().get(frame, "frame");
+        const auto source = scenes().get(scene, "scene");
+        const gl::Device::Guard guard(target->device());
+        Progress report;
+        if (progress != nullptr) report = [=](double fraction) { return progress(user, fraction) != 0; };
+        target->render(*source, report);
+    });
+}
+
+lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats) {
+    return border([&] {
+        const auto source = frames().get(frame, "frame");
+        const gl::Device::Guard guard(source->device());
+        write_struct(stats, source->stats(), "stats");
+    });
+}
+
+lb_result lb_frame_explain(lb_frame frame, char* text, size_t size, size_t* needed) {
+    return border([&] {
+        const auto source = frames().get(frame, "frame");
+        const gl::Device::Guard guard(source->device());
+        const std::string plan = source->explain();
+        if (size > 0) {
+            require(text, "text");
+            const size_t length = std::min(plan.size(), size - 1);
+            std::memcpy(text, plan.data(), length);
+            text[length] = 0;
+        }
+        if (needed != nullptr) *needed = plan.size() + 1;
+    });
+}
+
+lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_buffer_view* view) {
+    return border([&] {
+        require(name, "name");
+        const auto source = frames().get(frame, "frame");
+        const gl::Device::Guard guard(source->device());
+        give_array(source->field(name), buffer, view);
+    });
+}
+
+uint32_t lb_frame_buffer_count(void) { return uint32_t(Frame::field_names().size()); }
+
+const char* lb_frame_buffer_name(uint32_t index) {
+    const auto& names = Frame::field_names();
+    return index < names.size() ? names[index].name : nullptr;
+}
+
+lb_result lb_frame_save(lb_frame frame, const char* path, const char* names, float exposure) {
+    return border([&] {
+        require(path, "path");
+        const auto source = frames().get(frame, "frame");
+        const gl::Device::Guard guard(source->device());
+        save(*source, path, names != nullptr ? names : "color", exposure);
+    });
+}
+
+}  // extern "C"

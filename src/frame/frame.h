@@ -1,0 +1,60 @@
+// A picture: from scene and settings to passes, run in order, and their fields.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frame/host_array.h"
+#include "frame/plan.h"
+#include "frame/settings.h"
+#include "frame/targets.h"
+#include "passes/shade.h"
+#include "scene/scene.h"
+
+namespace lightband {
+
+// Called with the fraction done; true: cancel.
+using Progress = std::function<bool(double)>;
+
+class Frame {
+public:
+    static constexpr uint32_t largest_side = 8192;
+
+    Frame(gl::DevicePtr device, uint32_t width, uint32_t height);
+
+    const gl::DevicePtr& device() const { return device_; }
+    Settings settings;
+
+    // On any exception the former result stays.
+    void render(const Scene& scene, const Progress& progress);
+
+    lb_frame_stats stats() const;
+    std::string explain() const;
+    HostArray field(const std::string& name) const;
+
+    struct FieldName {
+        const char* name;
+        bool predicted;  // absent from a reference frame
+    };
+    static const std::vector<FieldName>& field_names();
+
+    uint32_t width() const { return width_; }
+    uint32_t height() const { return height_; }
+
+private:
+    struct Result;
+    const Result& result() const;
+    void predict(const Scene& scene, Result* result, passes::Counts* counts, const passes::SlotTable& slot_of,
+                 const Scene::Slots& slots) const;
+    void shade(const Scene& scene, Result* result, const passes::ShadingList& list, const Scene::Slots& slots,
+               const Progress& progress);
+
+    gl::DevicePtr device_;
+    uint32_t width_, height_;
+    std::unique_ptr<passes::SequenceTable> sequence_;
+    std::shared_ptr<const Result> result_;
+};
+
+}  // namespace lightband

@@ -1,0 +1,22 @@
+// What a frame holds after it was rendered.
+#pragma once
+
+#include "frame/frame.h"
+
+namespace lightband {
+
+struct Frame::Result {
+    Result(const gl::Functions& gl, uint32_t width, uint32_t height)
+        : gbuffer(gl, width, height), shading(gl, width, height), plan(gl) {}
+
+    Settings settings;
+    Vec3 eye{0};
+    GBuffer gbuffer;
+    std::optional<Prediction> prediction;
+    Shading shading;
+    std::vector<float> accumulated;  // RGBA means over several frames, where asked for
+    Plan plan;
+    lb_frame_stats stats = LB_FRAME_STATS_INIT;
+};
+
+}  // namespace lightband

@@ -1,0 +1,54 @@
+// The settings of a frame: one table with name, type, range, default and meaning; typed values for the passes.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "bandwidth/transport.h"
+#include "bandwidth/wavelet.h"
+#include "scene/brdf.h"
+
+#include "lightband/lightband.h"
+
+namespace lightband {
+
+enum class Method { adaptive, reference };
+enum class Variance { moments, printed };
+enum class Allocation { least_error, constant_variance };
+enum class Sequence { sobol, random };
+
+class Settings {
+public:
+    Settings();  // the defaults
+
+    // Throw LB_ERROR_INVALID_ARGUMENT and change nothing.
+    void set_number(const std::string& name, double value);
+    void set_choice(const std::string& name, const std::string& value);
+    double number(const std::string& name) const;
+    const char* choice(const std::string& name) const;
+
+    static uint32_t count();
+    static const lb_setting_info& info(uint32_t index);
+
+    Method method() const;
+    TransportForm transport() const;
+    BandRule band_rule() const;
+    Variance variance() const;
+    Allocation allocation() const;
+    Sequence sequence() const;
+    Lookup brdf_lookup() const;
+    Lookup environment_lookup() const;
+    uint32_t samples() const;
+    uint32_t max_samples() const;
+    uint32_t pilots() const;
+    uint32_t coarsest_level() const;
+    double bandwidth_scale() const;  // "auto" (0) resolved
+    uint32_t seed() const;
+    uint32_t accumulate() const;
+    bool background() const;
+
+private:
+    std::array<double, 32> values_;  // a number, or a choice's place among its choices
+};
+
+}  // namespace lightband

@@ -1,0 +1,29 @@
+#include "frame/targets.h"
+
+namespace lightband {
+
+using gl::Texture;
+
+GBuffer::GBuffer(const gl::Functions& gl, uint32_t width, uint32_t height)
+    : position(Texture::image(gl, GL_RGBA32F, width, height)),
+      normal(Texture::image(gl, GL_RGBA32F, width, height)),
+      material(Texture::image(gl, GL_R8UI, width, height)),
+      depth(Texture::image(gl, GL_DEPTH_COMPONENT32F, width, height)) {}
+
+Prediction::Prediction(const gl::Functions& gl, uint32_t width, uint32_t height, uint32_t coarsest_level)
+    : bandwidth(Texture::image(gl, GL_RGBA32F, width, height)),
+      prediction(Texture::image(gl, GL_RG32F, width, height)) {
+    for (uint32_t level = 0, h = height; level <= coarsest_level; ++level, h = (h + 1) / 2) {
+        rows.push_back(pyramid_height);
+        pyramid_height += h;
+    }
+    levels = Texture::image(gl, GL_R8UI, width, pyramid_height);
+    variances = Texture::image(gl, GL_R32F, width, pyramid_height);
+}
+
+Shading::Shading(const gl::Functions& gl, uint32_t width, uint32_t height)
+    : radiance(Texture::image(gl, GL_RGBA32F, width, height)),
+      sample_count(Texture::image(gl, GL_R32UI, width, height)),
+      decision(Texture::image(gl, GL_R8UI, width, height)) {}
+
+}  // namespace lightband

@@ -1,0 +1,43 @@
+// The device memory of a frame: what the passes write, each texture named after what it holds.
+#pragma once
+
+#include <vector>
+
+#include "gl/objects.h"
+
+namespace lightband {
+
+// One texel per pixel, rows top-down.
+struct GBuffer {
+    gl::Texture position;  // RGBA32F: metres from the eye, world axes; w: depth
+    gl::Texture normal;    // RGBA32F: unit, towards the eye; w: 1 where it had to be bent
+    gl::Texture material;  // R8UI: instance number + 1
+    gl::Texture depth;     // for the rasteriser
+
+    GBuffer(const gl::Functions& gl, uint32_t width, uint32_t height);
+    size_t bytes() const { return position.bytes() + normal.bytes() + material.bytes() + depth.bytes(); }
+};
+
+// The bandwidth buffer. Pyramids are pictures with each level below the finer one; rows[l] is where level l starts.
+struct Prediction {
+    gl::Texture bandwidth;   // RGBA32F: spatial, angular, image bandwidth, curvature
+    gl::Texture prediction;  // RG32F: variance of one sample, mean radiance
+    gl::Texture levels;      // R8UI pyramid; 255: nothing seen
+    gl::Texture variances;   // R32F pyramid of relative variances
+    std::vector<uint32_t> rows;
+    uint32_t pyramid_height = 0;
+
+    Prediction(const gl::Functions& gl, uint32_t width, uint32_t height, uint32_t coarsest_level);
+    size_t bytes() const { return bandwidth.bytes() + prediction.bytes() + levels.bytes() + variances.bytes(); }
+};
+
+struct Shading {
+    gl::Texture radiance;      // RGBA32F: mean of RGB, mean of squared luminance
+    gl::Texture sample_count;  // R32UI
+    gl::Texture decision;      // R8UI: 0 nothing, 1 interpolate, 2 + bin shade
+
+    Shading(const gl::Functions& gl, uint32_t width, uint32_t height);
+    size_t bytes() const { return radiance.bytes() + sample_count.bytes() + decision.bytes(); }
+};
+
+}  // namespace lightband

@@ -1,0 +1,100 @@
+#include "passes/classify.h"
+
+#include <algorithm>
+
+#include "passes/dispatch.h"
+
+namespace lightband::passes {
+namespace {
+
+constexpr size_t header = 4;  // covered, bent, saturated, unused: before the histogram
+
+std::string definitions(const Settings& settings, const Prediction* prediction) {
+    std::string result = text("BINS ", budget_bins);
+    if (prediction == nullptr) return result + "\nSHADE_ALL";
+    result += text("\nPYRAMID_LEVELS ", prediction->rows.size());
+    if (settings.allocation() == Allocation::constant_variance) result += "\nALLOCATION_CONSTANT_VARIANCE";
+    return result;
+}
+
+// Bins of a slot in the order of the list: most samples first.
+template <class Visit>
+void visit_bins(Visit visit) {
+    for (uint32_t bin = budget_bins; bin-- > 0;) visit(bin);
+}
+
+}  // namespace
+
+Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
+                uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
+    const gl::Functions& gl = device.gl();
+    const gl::Buffer counts(gl, (header + slots * budget_bins) * sizeof(uint32_t), nullptr);
+    counts.clear();
+    const gl::Program& program = device.compute("classify", definitions(settings, prediction));
+    program.set("coarsest_level", int32_t(settings.coarsest_level()));
+    program.set("screen_right", {float(camera.right.x), float(camera.right.y), float(camera.right.z)});
+    program.set("screen_up", {float(camera.up.x), float(camera.up.y), float(camera.up.z)});
+    program.use();
+    bind_texture(gl, 0, gbuffer.position);
+    bind_texture(gl, 1, gbuffer.normal);
+    bind_texture(gl, 2, gbuffer.material);
+    bind_texture(gl, 3, slot_of.texture);
+    if (prediction != nullptr) {
+        program.set_array("pyramid_rows", prediction->rows.data(), int32_t(prediction->rows.size()));
+        bind_image(gl, 0, prediction->levels, GL_R8UI);
+        bind_image(gl, 1, prediction->variances, GL_R32F);
+    }
+    bind_image(gl, 2, target.decision, GL_R8UI);
+    bind_storage(gl, 0, counts);
+    dispatch_pixels(gl, width, height);
+
+    std::vector<uint32_t> raw(header + slots * budget_bins);
+    counts.read(0, raw.size() * sizeof(uint32_t), raw.data());
+    return {raw[0], raw[1], raw[2], std::vector<uint32_t>(raw.begin() + header, raw.end())};
+}
+
+ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Settings& settings,
+                         uint32_t width, uint32_t height, const GBuffer& gbuffer, const Shading& target) {
+    const gl::Functions& gl = device.gl();
+    const size_t slots = counts.histogram.size() / budget_bins;
+    std::vector<uint64_t> pixels_of_bin(budget_bins);
+    for (size_t i = 0; i < counts.histogram.size(); ++i) pixels_of_bin[i % budget_bins] += counts.histogram[i];
+    ShadingList list;
+    list.samples = settings.method() == Method::reference
+                       ? std::vector<uint32_t>(budget_bins, settings.samples())
+                       : plan_budget(pixels_of_bin, settings.samples(), settings.max_samples());
+
+    std::vector<uint32_t> cursors(std::max<size_t>(counts.histogram.size(), 1));
+    uint32_t place = 0;
+    for (uint32_t slot = 0; slot < slots; ++slot) {
+        ShadingList::Part part{slot, place, 0, {}};
+        visit_bins([&](uint32_t bin) {
+            const uint32_t count = counts.histogram[slot * budget_bins + bin];
+            cursors[slot * budget_bins + bin] = place;
+            place += count;
+            part.count += count;
+            if (count == 0) return;
+            list.total_samples += uint64_t(count) * list.samples[bin];
+            const uint32_t rounds = (list.samples[bin] + part_samples - 1) / part_samples;
+            if (part.longer.size() < rounds) part.longer.resize(rounds);
+            for (uint32_t k = 0; k < rounds; ++k) part.longer[k] += count;
+        });
+        if (part.count > 0) list.parts.push_back(std::move(part));
+    }
+    list.pixels = place;
+
+    list.entries = gl::Buffer(gl, std::max<size_t>(place, 1) * sizeof(uint32_t), nullptr);
+    list.entries_texture = gl::Texture::of_buffer(gl, GL_R32UI, list.entries);
+    const gl::Buffer cursor_buffer(gl, cursors.size() * sizeof(uint32_t), cursors.data());
+    device.compute("scatter", text("BINS ", budget_bins)).use();
+    bind_texture(gl, 0, target.decision);
+    bind_texture(gl, 1, gbuffer.material);
+    bind_texture(gl, 2, slot_of.texture);
+    bind_storage(gl, 0, cursor_buffer);
+    bind_storage(gl, 1, list.entries);
+    bind_image(gl, 0, target.sample_count, GL_R32UI);
+    dispatch_pixels(gl, width, height);
+    return list;
+}
+
+}  // namespace lightband::passes

@@ -1,0 +1,72 @@
+#include "passes/gbuffer.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "passes/dispatch.h"
+
+namespace lightband::passes {
+namespace {
+
+// From the eye's frame with world axes to clip space. Row 0 of the picture lies at the top, and depth is reversed (1 near,
+// 0 far): floating-point depth then keeps its digits from 1e-4 to 1e6.
+glm::dmat4 projection(const Camera& camera, uint32_t width, uint32_t height) {
+    const double h = camera.plane_height(), w = h * width / height;
+    const double n = camera.near_plane, f = camera.far_plane;
+    const Vec3 rows[3] = {camera.right / w, -camera.up / h, camera.forward * (-n / (f - n))};
+    glm::dmat4 m(0);
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) m[column][row] = rows[row][column];
+        m[column][3] = camera.forward[column];
+    }
+    m[3][2] = n * f / (f - n);
+    return m;
+}
+
+void draw(gl::Device& device, const gl::Program& program, const Instance& instance, uint32_t number, const Camera& camera) {
+    glm::dmat4 to_eye = instance.transform.matrix;
+    to_eye[3] -= glm::dvec4(camera.eye, 0);
+    const glm::mat4 to_eye_float(to_eye);
+    const glm::mat3 normals(glm::transpose(glm::inverse(glm::dmat3(instance.transform.matrix))));
+    program.set_matrix4("to_eye", glm::value_ptr(to_eye_float));
+    program.set_matrix3("normal_matrix", glm::value_ptr(normals));
+    program.set("instance", number + 1);
+    device.gl().BindVertexArray(instance.mesh->vertex_array().name());
+    device.gl().DrawElements(GL_TRIANGLES, instance.mesh->index_count(), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace
+
+void gbuffer(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& target) {
+    const gl::Functions& gl = device.gl();
+    const Camera& camera = *scene.camera;
+    const gl::Framebuffer framebuffer(gl);
+    const gl::Texture* colors[] = {&target.position, &target.normal, &target.material};
+    const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    for (int i = 0; i < 3; ++i) gl.NamedFramebufferTexture(framebuffer.name(), attachments[i], colors[i]->name(), 0);
+    gl.NamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, target.depth.name(), 0);
+    gl.NamedFramebufferDrawBuffers(framebuffer.name(), 3, attachments);
+    if (gl.CheckNamedFramebufferStatus(framebuffer.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw Error(LB_ERROR_DEVICE, "geometry pass: the driver cannot draw into the G-buffer's formats");
+
+    const float zero[4] = {0, 0, 0, 0};
+    for (const gl::Texture* color : {colors[0], colors[1]}) gl.ClearTexImage(color->name(), 0, GL_RGBA, GL_FLOAT, zero);
+    gl.ClearTexImage(target.material.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+    gl.ClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, zero);
+
+    const gl::Program& program = device.graphics("gbuffer");
+    const glm::mat4 clip(projection(camera, width, height));
+    program.set_matrix4("projection", glm::value_ptr(clip));
+    program.set("forward", {float(camera.forward.x), float(camera.forward.y), float(camera.forward.z)});
+    program.use();
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    gl.Viewport(0, 0, GLsizei(width), GLsizei(height));
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_GREATER);
+    gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    for (uint32_t i = 0; i < scene.instances().size(); ++i) draw(device, program, scene.instances()[i], i, camera);
+    gl.BindVertexArray(0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl.MemoryBarrier(everything);
+}
+
+}  // namespace lightband::passes

@@ -1,0 +1,97 @@
+#include "passes/predict.h"
+
+#include <cmath>
+
+#include "passes/dispatch.h"
+
+namespace lightband::passes {
+namespace {
+
+// The pilots of every material in one table, slot by slot.
+gl::Buffer all_pilots(const gl::Functions& gl, const Scene::Slots& slots, const Settings& settings) {
+    std::vector<Pilot> all;
+    for (const Material* material : slots.materials) {
+        const std::vector<Pilot>& own = material->pilots(settings.band_rule(), settings.pilots());
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    if (all.empty()) all.emplace_back();
+    return gl::Buffer(gl, all.size() * sizeof(Pilot), all.data());
+}
+
+double sum_of_means(gl::Device& device, const Prediction& target, uint32_t height) {
+    const gl::Functions& gl = device.gl();
+    const gl::Buffer sums(gl, height * sizeof(float), nullptr);
+    device.compute("row_sums").use();
+    bind_texture(gl, 0, target.prediction);
+    bind_storage(gl, 0, sums);
+    gl.DispatchCompute((height + 63) / 64, 1, 1);
+    gl.MemoryBarrier(everything);
+    std::vector<float> rows(height);
+    sums.read(0, rows.size() * sizeof(float), rows.data());
+    double total = 0;
+    for (float row : rows) total += row;
+    return total;
+}
+
+}  // namespace
+
+SlotTable slot_table(const gl::Functions& gl, const Scene::Slots& slots) {
+    std::vector<uint32_t> slot_of(1, 0);
+    slot_of.insert(slot_of.end(), slots.of_instance.begin(), slots.of_instance.end());
+    SlotTable table;
+    table.buffer = gl::Buffer(gl, slot_of.size() * sizeof(uint32_t), slot_of.data());
+    table.texture = gl::Texture::of_buffer(gl, GL_R32UI, table.buffer);
+    return table;
+}
+
+double predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const SlotTable& slot_of,
+               const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction& target) {
+    const gl::Functions& gl = device.gl();
+    const EnvironmentBandwidth& light = scene.light->bandwidth(settings.band_rule());
+    const gl::Buffer pilots = all_pilots(gl, slots, settings);
+    const gl::Texture pilots_texture = gl::Texture::of_buffer(gl, GL_RGBA32F, pilots);
+    const gl::Program& program = device.compute(
+        "bandwidth", text("LOBE_VIEWS ", LobeTable::views,
+                          settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
+                          settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : ""));
+    program.set("pilot_count", int32_t(settings.pilots()));
+    program.set("coarsest_level", int32_t(settings.coarsest_level()));
+    program.set("radians_per_pixel", float(scene.camera->radians_per_pixel(height)));
+    program.set("bandwidth_scale", float(settings.bandwidth_scale()));
+    program.set("footprint_level", float(std::log2(double(light.side) * light.side / (4 * pi))));
+    program.use();
+    bind_texture(gl, 0, gbuffer.position);
+    bind_texture(gl, 1, gbuffer.normal);
+    bind_texture(gl, 2, gbuffer.material);
+    bind_texture(gl, 3, light.moments);
+    bind_texture(gl, 4, pilots_texture);
+    bind_texture(gl, 5, slot_of.texture);
+    bind_image(gl, 0, target.bandwidth, GL_RGBA32F);
+    bind_image(gl, 1, target.prediction, GL_RG32F);
+    bind_image(gl, 2, target.levels, GL_R8UI);
+    dispatch_pixels(gl, width, height);
+    return sum_of_means(device, target, height);
+}
+
+void pyramids(gl::Device& device, double mean_radiance, uint32_t width, uint32_t height, const Prediction& target) {
+    const gl::Functions& gl = device.gl();
+    uint32_t w = width, h = height;
+    for (size_t level = 0; level < target.rows.size(); ++level) {
+        const gl::Program& program = device.compute("pyramid", level == 0 ? "FIRST_LEVEL" : "");
+        program.set("mean_radiance", float(mean_radiance));
+        program.set("finer_size", int32_t(w), int32_t(h));
+        if (level > 0) {
+            program.set("finer_row", int32_t(target.rows[level - 1]));
+            program.set("row", int32_t(target.rows[level]));
+            w = (w + 1) / 2;
+            h = (h + 1) / 2;
+        }
+        program.use();
+        bind_texture(gl, 0, target.prediction);
+        bind_image(gl, 0, target.levels, GL_R8UI);
+        bind_image(gl, 1, target.variances, GL_R32F);
+        dispatch_pixels(gl, w, h);
+    }
+}
+
+}  // namespace lightband::passes

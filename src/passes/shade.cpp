@@ -1,0 +1,108 @@
+#include "passes/shade.h"
+
+#include <algorithm>
+
+#include "passes/dispatch.h"
+#include "sampling/sequence.h"
+
+namespace lightband::passes {
+namespace {
+
+// Samples of one dispatch: about half a second on a software renderer, so that progress moves and cancelling works, and far
+// below the watchdogs of graphics drivers.
+constexpr uint64_t dispatch_samples = 1u << 23;
+
+std::string definitions(const Material& material, const Settings& settings) {
+    return material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples) +
+           (settings.sequence() == Sequence::random ? "\nSEQUENCE_RANDOM" : "") +
+           (settings.environment_lookup() == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : "");
+}
+
+void set_axes(const gl::Program& program, const char* name, const Vec3& v) {
+    program.set(name, {float(v.x), float(v.y), float(v.z)});
+}
+
+}  // namespace
+
+SequenceTable::SequenceTable(const gl::Functions& gl) {
+    std::vector<SequencePoint> points(part_samples);
+    for (uint32_t i = 0; i < part_samples; ++i) points[i] = sequence_point(i);
+    buffer = gl::Buffer(gl, points.size() * sizeof(SequencePoint), points.data());
+    texture = gl::Texture::of_buffer(gl, GL_RG32UI, buffer);
+}
+
+void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t seed,
+           const SequenceTable& sequence, const ShadingList& list, const GBuffer& gbuffer, const Shading& target,
+           const Drawn& drawn) {
+    const gl::Functions& gl = device.gl();
+    uint64_t done = 0;
+    for (const ShadingList::Part& part : list.parts) {
+        const Material& material = *slots.materials[part.slot];
+        const gl::Program& program = device.compute("shade", definitions(material, settings));
+        program.set("seed", seed);
+        program.set_array("samples", list.samples.data(), int32_t(budget_bins));
+        program.use();
+        material.bind(program);
+        bind_texture(gl, 0, scene.light->texture());
+        bind_texture(gl, 1, list.entries_texture);
+        bind_texture(gl, 5, gbuffer.position);
+        bind_texture(gl, 6, gbuffer.normal);
+        bind_texture(gl, 7, target.decision);
+        bind_texture(gl, 8, sequence.texture);
+        bind_image(gl, 0, target.radiance, GL_RGBA32F);
+        bind_image(gl, 1, target.sample_count, GL_R32UI);
+        for (uint32_t round = 0; round < part.longer.size(); ++round) {
+            const uint32_t per_pixel = std::min(part_samples, *std::max_element(list.samples.begin(), list.samples.end()));
+            const uint32_t pixels = uint32_t(std::max<uint64_t>(64, dispatch_samples / per_pixel));
+            for (uint32_t first = 0; first < part.longer[round]; first += pixels) {
+                const uint32_t count = std::min(pixels, part.longer[round] - first);
+                program.set("first", part.first + first);
+                program.set("count", count);
+                program.set("part", round * part_samples);
+                gl.DispatchCompute((count + 63) / 64, 1, 1);
+                gl.MemoryBarrier(everything);
+                gl.Finish();
+                done += uint64_t(count) * per_pixel;
+                drawn(std::min(done, list.total_samples));
+            }
+        }
+    }
+}
+
+void upsample(gl::Device& device, const Camera& camera, const Settings& settings, uint32_t width, uint32_t height,
+              const GBuffer& gbuffer, const Prediction& prediction, const Shading& target) {
+    const gl::Functions& gl = device.gl();
+    const gl::Program& program = device.compute("upsample");
+    set_axes(program, "screen_right", camera.right);
+    set_axes(program, "screen_up", camera.up);
+    program.set("coarsest_level", int32_t(settings.coarsest_level()));
+    program.use();
+    bind_texture(gl, 0, gbuffer.position);
+    bind_texture(gl, 1, gbuffer.normal);
+    bind_texture(gl, 2, gbuffer.material);
+    bind_texture(gl, 3, target.decision);
+    bind_image(gl, 0, target.radiance, GL_RGBA32F);
+    bind_image(gl, 1, prediction.levels, GL_R8UI);
+    for (uint32_t level = settings.coarsest_level(); level-- > 0;) {
+        program.set("level", int32_t(level));
+        dispatch_pixels(gl, (width + (1u << level) - 1) >> level, (height + (1u << level) - 1) >> level);
+    }
+}
+
+void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
+                const Shading& target) {
+    const gl::Functions& gl = device.gl();
+    const Camera& camera = *scene.camera;
+    const double pixel = 2 * camera.plane_height() / height;
+    const gl::Program& program = device.compute("background");
+    set_axes(program, "forward", camera.forward);
+    set_axes(program, "right_per_pixel", camera.right * pixel);
+    set_axes(program, "down_per_pixel", -camera.up * pixel);
+    program.use();
+    bind_texture(gl, 0, scene.light->texture());
+    bind_texture(gl, 1, gbuffer.material);
+    bind_image(gl, 0, target.radiance, GL_RGBA32F);
+    dispatch_pixels(gl, width, height);
+}
+
+}  // namespace lightband::passes

@@ -1,0 +1,76 @@
+#include "scene/material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+#include "base/error.h"
+
+namespace lightband {
+
+Material::Material(gl::DevicePtr device, Brdf brdf)
+    : device_(std::move(device)), brdf_(std::move(brdf)), sampler_(brdf_) {
+    if (const auto* table = std::get_if<BrdfTable>(&brdf_)) upload_table(*table);
+}
+
+// Four halves a cell: RGB divided by a power of two that brings the largest value to at most 2^15, and whether the cell was
+// measured. A half keeps 11 bits, 2^-12 of relative rounding, down to 2^-29 of the largest value.
+void Material::upload_table(const BrdfTable& table) {
+    const float largest = *std::max_element(table.rgb.begin(), table.rgb.end());
+    table_scale_ = largest > 0 ? std::ldexp(1.0f, std::ilogb(largest) - 14) : 1.0f;
+    std::vector<uint64_t> cells(BrdfTable::cell_count);
+    for (size_t i = 0; i < cells.size(); ++i) {
+        const float* rgb = &table.rgb[3 * i];
+        const bool measured = rgb[0] >= 0;
+        cells[i] = glm::packHalf4x16(measured ? glm::vec4(rgb[0], rgb[1], rgb[2], 0) / table_scale_ + glm::vec4(0, 0, 0, 1)
+                                              : glm::vec4(0));
+    }
+    const gl::Functions& gl = device_->gl();
+    if (size_t(device_->max_texture_buffer_texels()) < cells.size())
+        throw Error(LB_ERROR_LIMIT, text("a BRDF table of ", cells.size(), " cells exceeds the device's texture buffers of ",
+                                         device_->max_texture_buffer_texels(), " texels"));
+    cells_ = gl::Buffer(gl, cells.size() * sizeof(uint64_t), cells.data());
+    cells_texture_ = gl::Texture::of_buffer(gl, GL_RGBA16F, cells_);
+    const LobeTable& lobes = sampler_.table();
+    lobe_x_ = gl::Buffer(gl, lobes.x.size() * sizeof(LobeTable::Step), lobes.x.data());
+    lobe_x_texture_ = gl::Texture::of_buffer(gl, GL_RG32F, lobe_x_);
+    lobe_phi_ = gl::Buffer(gl, lobes.phi.size() * sizeof(LobeTable::Step), lobes.phi.data());
+    lobe_phi_texture_ = gl::Texture::of_buffer(gl, GL_RG32F, lobe_phi_);
+    device_->check("uploading a BRDF");
+}
+
+std::string Material::definitions(Lookup lookup) const {
+    if (std::holds_alternative<Lambert>(brdf_)) return "LOBE_LAMBERT";
+    if (std::holds_alternative<Ggx>(brdf_)) return "LOBE_GGX";
+    return text("LOBE_TABLE\nLOBE_VIEWS ", LobeTable::views, "\nLOBE_RADIAL ", LobeTable::radial, "\nLOBE_AZIMUTHAL ",
+                LobeTable::azimuthal, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
+}
+
+void Material::bind(const gl::Program& program) const {
+    if (const auto* lambert = std::get_if<Lambert>(&brdf_)) {
+        program.set("albedo", {float(lambert->albedo.x), float(lambert->albedo.y), float(lambert->albedo.z)});
+    } else if (const auto* ggx = std::get_if<Ggx>(&brdf_)) {
+        program.set("alpha", float(ggx->alpha));
+        program.set("f0", {float(ggx->f0.x), float(ggx->f0.y), float(ggx->f0.z)});
+    } else {
+        program.set("table_scale", table_scale_);
+        device_->gl().BindTextureUnit(2, cells_texture_.name());
+        device_->gl().BindTextureUnit(3, lobe_x_texture_.name());
+        device_->gl().BindTextureUnit(4, lobe_phi_texture_.name());
+    }
+}
+
+const LobeBandwidth& Material::bandwidth(BandRule rule) const {
+    auto found = bandwidths_.find(rule);
+    if (found == bandwidths_.end()) found = bandwidths_.emplace(rule, lobe_bandwidth(brdf_, rule)).first;
+    return found->second;
+}
+
+const std::vector<Pilot>& Material::pilots(BandRule rule, uint32_t count) const {
+    auto found = pilots_.find({rule, count});
+    if (found == pilots_.end())
+        found = pilots_.emplace(std::make_pair(rule, count), lightband::pilots(brdf_, sampler_, bandwidth(rule), count)).first;
+    return found->second;
+}
+
+}  // namespace lightband

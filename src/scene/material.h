@@ -1,0 +1,43 @@
+// A BRDF on a device: its table, its sampling tables, and what prediction needs, each made when first asked for.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "bandwidth/lobe_bandwidth.h"
+#include "gl/objects.h"
+#include "sampling/lobe_sampler.h"
+#include "sampling/pilots.h"
+
+namespace lightband {
+
+class Material {
+public:
+    Material(gl::DevicePtr device, Brdf brdf);
+
+    const gl::DevicePtr& device() const { return device_; }
+    const Brdf& brdf() const { return brdf_; }
+
+    // Definitions of the lobe.glsl variant, and binding of its tables and uniforms.
+    std::string definitions(Lookup lookup) const;
+    void bind(const gl::Program& program) const;
+
+    const LobeBandwidth& bandwidth(BandRule rule) const;
+    const std::vector<Pilot>& pilots(BandRule rule, uint32_t count) const;
+    size_t device_bytes() const { return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes(); }
+
+private:
+    void upload_table(const BrdfTable& table);
+
+    gl::DevicePtr device_;
+    const Brdf brdf_;
+    const LobeSampler sampler_;
+    float table_scale_ = 1;
+    gl::Buffer cells_, lobe_x_, lobe_phi_;
+    gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_;
+    mutable std::map<BandRule, LobeBandwidth> bandwidths_;
+    mutable std::map<std::pair<BandRule, uint32_t>, std::vector<Pilot>> pilots_;
+};
+
+}  // namespace lightband

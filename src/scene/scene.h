@@ -1,0 +1,55 @@
+// Meshes with their materials, one environment, one camera.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "scene/camera.h"
+#include "scene/light.h"
+#include "scene/material.h"
+#include "scene/mesh.h"
+
+namespace lightband {
+
+struct Transform {
+    glm::dmat4 matrix{1};
+
+    // 12 floats, three rows of an affine matrix; nullptr: identity. Throws when not finite or not invertible.
+    static Transform from(const float* rows);
+};
+
+struct Instance {
+    std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const Material> material;
+    Transform transform;
+};
+
+class Scene {
+public:
+    static constexpr size_t most_instances = 254;  // the material buffer holds number + 1 in a byte
+
+    explicit Scene(gl::DevicePtr device) : device_(std::move(device)) {}
+
+    const gl::DevicePtr& device() const { return device_; }
+    uint32_t add(Instance instance);
+    void set_transform(uint32_t index, const Transform& transform);
+
+    std::shared_ptr<const Light> light;
+    std::optional<Camera> camera;
+    const std::vector<Instance>& instances() const { return instances_; }
+
+    // The distinct materials in order of first use: a material's place is its slot; and each instance's slot.
+    struct Slots {
+        std::vector<const Material*> materials;
+        std::vector<uint32_t> of_instance;
+    };
+    Slots slots() const;
+    size_t device_bytes() const;
+
+private:
+    gl::DevicePtr device_;
+    std::vector<Instance> instances_;
+};
+
+}  // namespace lightband
