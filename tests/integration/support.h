@@ -2,12 +2,14 @@
 #ifndef LIGHTBAND_TESTS_SUPPORT_H
 #define LIGHTBAND_TESTS_SUPPORT_H
 
-/* clang-format off: cmocka.h wants these four first. */
-#include <cmocka.h>
+/* cmocka.h wants these four first. */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include <cmocka.h>
 /* clang-format on */
 
 #include "lightband/lightband.h"

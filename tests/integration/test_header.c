@@ -1,4 +1,4 @@
-/* lightband.h as C99 and as C++: included first, twice, with every initialiser used. Compiling is the test. */
+/* lightband.h as C99 and as C++: included first, with every initialiser used. Compiling is the test. */
 #include "lightband/lightband.h"
 
 uint32_t sizes_of_version_1(void) {
