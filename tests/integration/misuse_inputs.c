@@ -216,9 +216,10 @@ static void environment_size_has_limits(void** state) {
     assert_refused(lb_environment_create(context, 0, 1, grey, &map), LB_ERROR_INVALID_ARGUMENT, "width");
     assert_refused(lb_environment_create(context, 1, 0, grey, &map), LB_ERROR_INVALID_ARGUMENT, "height");
     /* Refused before the three floats are read as so many texels. */
-    assert_refused(lb_environment_create(context, 16385, 1, grey, &map), LB_ERROR_LIMIT, "width", "16384");
-    assert_refused(lb_environment_create(context, 1, 8193, grey, &map), LB_ERROR_LIMIT, "height", "8192");
-    assert_refused(lb_environment_create(context, UINT32_MAX, UINT32_MAX, grey, &map), LB_ERROR_LIMIT, "16384");
+    assert_refused(lb_environment_create(context, 16385, 1, grey, &map), LB_ERROR_INVALID_ARGUMENT, "width", "16384");
+    assert_refused(lb_environment_create(context, 1, 8193, grey, &map), LB_ERROR_INVALID_ARGUMENT, "height", "8192");
+    assert_refused(lb_environment_create(context, UINT32_MAX, UINT32_MAX, grey, &map), LB_ERROR_INVALID_ARGUMENT,
+                   "16384");
     assert_null(map);
 }
 

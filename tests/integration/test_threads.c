@@ -4,7 +4,7 @@
 
 #include "support.h"
 
-enum { ROUNDS = 6, THREADS = 2 };
+enum { ROUNDS = 3, THREADS = 2 };
 
 static float expected[PICTURE_FLOATS];
 
