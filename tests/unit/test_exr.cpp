@@ -287,6 +287,21 @@ void test_unfinished_file(void**) {
                  [] { parse(header_only(Imf::Header(4, 4))); });
 }
 
+// OpenEXR could look for the chunks by itself; but a file without its table was not finished.
+void test_lost_chunk_table(void**) {
+    Bytes bytes = make_exr({Imf::FLOAT, Imf::NO_COMPRESSION}, counted);
+    constexpr size_t table_bytes = height * sizeof(uint64_t);  // one chunk per scanline; the first one comes next
+    const auto chunk_offset = [&](size_t position) {
+        uint64_t offset;
+        std::memcpy(&offset, &bytes[position], sizeof offset);
+        return offset;
+    };
+    size_t table = 0;
+    while (chunk_offset(table) != table + table_bytes) ++table;
+    std::fill_n(bytes.begin() + table, table_bytes, 0);
+    expect_error(LB_ERROR_FORMAT, {"OpenEXR cannot read it"}, [&] { parse(bytes); });
+}
+
 std::vector<Bytes> one_of_each_compression() {
     std::vector<Bytes> files;
     for (int compression = 0; compression < Imf::NUM_COMPRESSION_METHODS; ++compression)
@@ -319,6 +334,7 @@ int main() {
         cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_attribute_beyond_the_end),
         cmocka_unit_test(test_unfinished_file),
+        cmocka_unit_test(test_lost_chunk_table),
         cmocka_unit_test(test_truncated),
         cmocka_unit_test(test_damaged),
     };

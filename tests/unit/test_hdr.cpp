@@ -243,7 +243,9 @@ void test_bad_scanlines(void**) {
     expect_bad({"begins with a repetition"}, header + Bytes{1, 1, 1, 8});
     expect_bad({"run does not fit"}, header + Bytes{9, 9, 9, 130, 1, 1, 1, 8});
     expect_bad({"run does not fit"}, header + Bytes{9, 9, 9, 130, 1, 1, 1, 0, 1, 1, 1, 1});
-    expect_bad({"run does not fit"}, header + Bytes{9, 9, 9, 130, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 1});
+    // A third digit counts in 65536s, more than any scanline holds, even where it is zero.
+    expect_bad({"run does not fit"}, usual_header + std::string("-Y 1 +X 2\n") +
+                                         Bytes{9, 9, 9, 130, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 8, 8, 8, 130});
 }
 
 std::vector<Bytes> one_of_each_encoding() {

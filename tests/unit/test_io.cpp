@@ -25,6 +25,19 @@ using namespace lightband;
 using namespace lightband::io;
 using namespace lightband::testing;
 
+// A limit on the size of files stands for the full disk.
+template <typename Call>
+void with_file_size_limit(rlim_t bytes, const Call& call) {
+    struct rlimit before;
+    getrlimit(RLIMIT_FSIZE, &before);
+    const struct rlimit small = {bytes, before.rlim_max};
+    const auto handler = signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    call();
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, handler);
+}
+
 // ---- Whole files --------------------------------------------------------------------------------
 
 void test_file_round_trip(void**) {
@@ -37,6 +50,20 @@ void test_file_round_trip(void**) {
         assert_true(read_file(path, size) == bytes);
         assert_int_equal(folder.entries(), 1);
     }
+}
+
+void test_descriptors_are_closed(void**) {
+    ScratchFolder folder;
+    const std::string path = folder.file("bytes");
+    const int before = ::dup(0);  // the lowest free number
+    ::close(before);
+    write_file(path, Bytes(10));
+    read_file(path, 10);
+    expect_error(LB_ERROR_FORMAT, {}, [&] { read_file(path, 9); });
+    with_file_size_limit(5, [&] { expect_error(LB_ERROR_FILE, {}, [&] { write_file(path, Bytes(10)); }); });
+    const int after = ::dup(0);
+    ::close(after);
+    assert_int_equal(after, before);
 }
 
 void test_read_limits(void**) {
@@ -69,19 +96,6 @@ void test_write_failures_leave_nothing(void**) {
     const std::string too_long = folder.file(std::string(300, 'x'));
     expect_error(LB_ERROR_FILE, {"name too long"}, [&] { write_file(too_long, Bytes(3)); });
     assert_int_equal(folder.entries(), 1);
-}
-
-// A limit on the size of files stands for the full disk.
-template <typename Call>
-void with_file_size_limit(rlim_t bytes, const Call& call) {
-    struct rlimit before;
-    getrlimit(RLIMIT_FSIZE, &before);
-    const struct rlimit small = {bytes, before.rlim_max};
-    const auto handler = signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &small);
-    call();
-    setrlimit(RLIMIT_FSIZE, &before);
-    signal(SIGXFSZ, handler);
 }
 
 void test_full_disk_leaves_the_old_file(void**) {
@@ -293,6 +307,7 @@ void test_write_png(void**) {
     const Bytes file = read_file(folder.file("a.png"), 1 << 20);
     const std::string words(file.begin(), file.end());
     assert_true(words.find("sRGB") != std::string::npos);
+    assert_int_equal(words.rfind("IEND"), words.size() - 8);  // the last chunk's name and checksum end the file
     png_image image = {};
     image.version = PNG_IMAGE_VERSION;
     assert_true(png_image_begin_read_from_memory(&image, file.data(), file.size()));
@@ -319,6 +334,7 @@ void test_write_png_bad_arguments(void**) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(test_file_round_trip),
+        cmocka_unit_test(test_descriptors_are_closed),
         cmocka_unit_test(test_read_limits),
         cmocka_unit_test(test_read_failures),
         cmocka_unit_test(test_write_failures_leave_nothing),
