@@ -29,13 +29,12 @@ Vec3 colour_matching(double nm) {
             lobe(nm, 1.217, 437.0, 0.0845, 0.0278) + lobe(nm, 0.681, 459.0, 0.0385, 0.0725)};
 }
 
-// Linear Rec. 709 to CIE XYZ (IEC 61966-2-1), written column by column: the red, green and blue primaries.
-const glm::dmat3 xyz_of_rgb(Vec3(0.4124, 0.2126, 0.0193), Vec3(0.3576, 0.7152, 0.1192),
-                            Vec3(0.1805, 0.0722, 0.9505));
-
-// What each wavelength of a reflectance adds to linear RGB. The fit and the 10 nm grid put the white of D65 within a
+// What each wavelength of a reflectance adds to linear RGB. The fit and the 10 nm grid put the white of D65 within 0.1
 // percent of the white of the primaries; X, Y and Z are each scaled so that the two coincide.
 std::array<Vec3, wavelength_count> rgb_weights() {
+    // Linear Rec. 709 to CIE XYZ (IEC 61966-2-1), written column by column: the red, green and blue primaries.
+    const glm::dmat3 xyz_of_rgb(Vec3(0.4124, 0.2126, 0.0193), Vec3(0.3576, 0.7152, 0.1192),
+                                Vec3(0.1805, 0.0722, 0.9505));
     std::array<Vec3, wavelength_count> weights;
     Vec3 white(0.0);
     for (size_t sample = 0; sample < wavelength_count; ++sample) {
