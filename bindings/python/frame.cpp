@@ -36,7 +36,9 @@ constexpr Field fields[] = {
      "float32, height x width: radiance^2, predicted variance of one light sample's luminance (eq. 9)."},
     {"variance_measured",
      "float32, height x width: radiance^2, the same from the samples drawn; 0 where fewer than two were drawn."},
-    {"level_pyramid", "float32, rows x width: the levels' min pyramid, level below level; pyramid() takes it apart."},
+    {"level_pyramid",
+     "uint8, rows x width: the levels' min pyramid, level below level; 255 where nothing is seen. pyramid() takes it "
+     "apart."},
     {"variance_pyramid",
      "float32, rows x width: the relative variances' max pyramid, level below level; pyramid() takes it apart."},
 };

@@ -72,7 +72,8 @@ void bind_light_and_material(py::module_& module) {
     bind_closing(environment);
     bind_field(environment, "radiance", "float32, height x width x 3: linear RGB as loaded, rows top-down.");
     bind_field(environment, "bandwidth",
-               "float32, size x size: cycles/radian per direction, on the octahedral square (docs/conventions.md).");
+               "float32, size x size: cycles/radian per direction, on the octahedral square (docs/conventions.md); 1e9 "
+               "where unbounded.");
     environment.def("__repr__",
                     [](const Environment& self) { return describe("Environment", self, self.description); });
 
@@ -83,7 +84,7 @@ Made by Context.load_brdf, builtin_brdf, table_brdf, lambert and ggx.)");
     bind_field(brdf, "table", R"(float32, 90 x 90 x 180 x 3: 1/steradian, cells (theta_half, theta_diff, phi_diff).
 
 Raises StateError for a reflectance that has no table.)");
-    bind_field(brdf, "bandwidth", R"(float32, 32 x 16 x 16: cycles/radian of the lobe.
+    bind_field(brdf, "bandwidth", R"(float32, 32 x 64 x 64: cycles/radian of the lobe, 1e9 where unbounded.
 
 First axis: views in steps of cos(theta_o); then the square of incident directions (docs/conventions.md).)");
     brdf.def("evaluate", &evaluate, py::arg("wi"), py::arg("wo"),

@@ -60,6 +60,7 @@ AXIS = 0.6  # numbers and label along an axis
 LEAST_SCATTER = 1.8
 PANEL = BOX + BAR_GAP + BAR_WIDTH + NUMBERS
 MOST_LEVELS = 10  # of a pyramid; those beyond hold few pixels
+LEAST_LEVELS = 6  # that a row has room for, so that few levels do not become large
 
 
 class FieldStyle(NamedTuple):
@@ -86,7 +87,7 @@ STYLES = {
     "sample_count": FieldStyle("Samples", "log", "viridis"),
     "variance_predicted": FieldStyle("Predicted variance", "log", "magma"),
     "variance_measured": FieldStyle("Measured variance", "log", "magma"),
-    "level_pyramid": FieldStyle("Pyramid of least levels", "linear", "viridis_r"),
+    "level_pyramid": FieldStyle("Pyramid of least levels", "category", "viridis_r"),
     "variance_pyramid": FieldStyle("Pyramid of greatest relative variances", "log", "magma"),
 }
 
@@ -119,7 +120,11 @@ def srgb_decode(encoded: Any) -> Floats:
 
 
 def number_label(value: float) -> str:
-    return f"{value:.3g}" if abs(value) < 1000 else f"{value:g}"
+    """Three digits at most, and as short as they go: 0.25, 20000, 1e8."""
+    if value != 0 and not 1e-3 <= abs(value) < 1e5:
+        mantissa, exponent = f"{value:.2e}".split("e")
+        return f"{float(mantissa):g}e{int(exponent)}"
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def linear_ticks(low: float, high: float) -> list[float]:
@@ -186,6 +191,11 @@ def show_categories(values: Floats, seen: Mask, colours: Colormap, labels: Seque
     return Picture(rgba, key, range(0, count, step), labels[::step])
 
 
+def show_levels(values: Floats, seen: Mask, coarsest: int, colours: str) -> Picture:
+    labels = [str(level) for level in range(coarsest + 1)]
+    return show_categories(values, seen, matplotlib.colormaps[colours].resampled(coarsest + 1), labels)
+
+
 def show_vectors(values: Floats, seen: Mask, low: float, high: float) -> Picture:
     """Three components as red, green and blue, all on one scale."""
     low, high = widened(low, high)
@@ -234,11 +244,9 @@ def show_field(name: str, array: NDArray[Any], seen: Mask) -> Picture:
         case "instance":
             count = max(int(values.max()), 1)
             cycle = [matplotlib.colormaps["tab10"](i % 10) for i in range(count)]
-            return show_categories(values - 1, seen, ListedColormap(cycle), [str(i) for i in range(count)])
+            return show_categories(values - 1, seen, ListedColormap(cycle), [str(i + 1) for i in range(count)])
         case "category":
-            count = int(values[seen].max()) + 1 if seen.any() else 1
-            colours = matplotlib.colormaps[style.colours].resampled(count)
-            return show_categories(values, seen, colours, [str(i) for i in range(count)])
+            return show_levels(values, seen, int(values[seen].max()) if seen.any() else 0, style.colours)
         case "log":
             return show_scalar(values, seen, log_scale(values[seen]), style.colours)
         case _:
@@ -340,13 +348,14 @@ def draw_fields(
     arrays = {name: array for name in names if (array := read_field(frame, name, fields is not None)) is not None}
     seen = frame.material != 0
     panels = [name for name in arrays if not name.endswith("_pyramid")]
-    pyramids = [name for name in arrays if name.endswith("_pyramid")]
+    pyramids = {name: frame.pyramid(name)[:MOST_LEVELS] for name in arrays if name.endswith("_pyramid")}
 
     image = fitted(frame.width, frame.height, BOX)
     row_height = TITLE + image.height + ROW_GAP
     pyramids_top = HEADING + math.ceil(len(panels) / COLUMNS) * row_height
     width = MARGIN + PANEL * (COLUMNS if pyramids else min(COLUMNS, max(len(panels), 2)))
-    level_box = (width - MARGIN - BAR_GAP - BAR_WIDTH - NUMBERS) / MOST_LEVELS - LEVEL_GAP
+    room_for = max([LEAST_LEVELS, *map(len, pyramids.values())])
+    level_box = (width - MARGIN - BAR_GAP - BAR_WIDTH - NUMBERS) / room_for - LEVEL_GAP
     level = fitted(frame.width, frame.height, level_box)
     pyramid_height = 2 * TITLE + level.height + ROW_GAP
 
@@ -356,8 +365,8 @@ def draw_fields(
         for i, name in enumerate(panels):
             left, top = MARGIN + i % COLUMNS * PANEL, HEADING + i // COLUMNS * row_height
             draw_panel(sheet, left, top, image, name, arrays[name], seen)
-        for i, name in enumerate(pyramids):
-            draw_pyramid(sheet, pyramids_top + i * pyramid_height, level, name, frame.pyramid(name), seen)
+        for i, (name, levels) in enumerate(pyramids.items()):
+            draw_pyramid(sheet, pyramids_top + i * pyramid_height, level, name, levels, seen)
         return sheet.save(path)
 
 
@@ -389,17 +398,21 @@ def draw_panel(sheet: Sheet, left: float, top: float, size: Size, name: str, arr
 
 def draw_pyramid(sheet: Sheet, top: float, size: Size, name: str, views: list[Any], seen: Mask) -> None:
     """The levels of a pyramid in one row, all equally large, on one scale."""
-    levels = [view.astype(np.float64) for view in views[:MOST_LEVELS]]
+    levels = [view.astype(np.float64) for view in views]
     masks = [seen]
     while len(masks) < len(levels):
         masks.append(halved(masks[-1]))
-    everything = np.concatenate([level[mask] for level, mask in zip(levels, masks)])
     style = STYLES[name]
-    scale = log_scale(everything) if style.scale == "log" else linear_scale(everything)
+    everything = np.concatenate([level[mask] for level, mask in zip(levels, masks, strict=True)])
+    scale = log_scale(everything)
+    coarsest = int(everything.max(initial=0))
     sheet.text(MARGIN, top + 0.1, title_of(name, unit_of(views[0])))
     left = MARGIN
     for k, (level, mask) in enumerate(zip(levels, masks, strict=True)):
-        picture = show_scalar(level, mask, scale, style.colours)
+        if style.scale == "category":
+            picture = show_levels(level, mask, coarsest, style.colours)
+        else:
+            picture = show_scalar(level, mask, scale, style.colours)
         sheet.image(left, top + TITLE, size, picture.rgba, f"{k}: {level.shape[1]} x {level.shape[0]}")
         left += size.width + LEVEL_GAP
     sheet.key(left - LEVEL_GAP + BAR_GAP, top + TITLE, size.height, picture)
