@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
 
     lb_frame frame = NULL;
     check(lb_frame_create(context, 256, 256, &frame), "frame");
+    check(lb_frame_set_number(frame, "samples", 256), "samples");
     check(lb_frame_render(frame, scene, NULL, NULL), "render");
 
     lb_frame_stats stats = LB_FRAME_STATS_INIT;
