@@ -23,7 +23,7 @@ build_preset() {
 
 # Installs the Python package into build/venv when one of its sources changed since the last time.
 install_package() {
-    local sources=(CMakeLists.txt pyproject.toml README.md bindings cmake include shaders src scripts/requirements-build.txt)
+    local sources=(CMakeLists.txt pyproject.toml bindings cmake include shaders src scripts/requirements-build.txt)
     local stamp=build/venv/package.stamp now
     now=$(find "${sources[@]}" -type f -not -path '*/__pycache__/*' -printf '%p %s %T@\n' | sort)
     if [ -f "$stamp" ] && [ "$now" = "$(cat "$stamp")" ]; then
