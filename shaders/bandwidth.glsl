@@ -101,8 +101,8 @@ void main() {
         if (light.x <= 0.0) continue;
         float light_bandwidth = light.z / light.x;
         float lambda = light.x * a.w;
-        weighted += lambda * min(reflected_bandwidth(light_bandwidth, b.y, max(curvature, 0.0), cos_outgoing, distance_to_eye),
-                                 vec2(frequency_limit * 1e6, frequency_limit));
+        vec2 nu = reflected_bandwidth(light_bandwidth, b.y, max(curvature, 0.0), cos_outgoing, distance_to_eye);
+        weighted += lambda * vec2(nu.x, min(nu.y, frequency_limit));
         weights += lambda;
         second += light.y * a.w * a.w;
         printed += (min(light_bandwidth, frequency_limit) + min(b.y, frequency_limit)) * b.x * light.y;

@@ -42,6 +42,13 @@ vec3 octahedral_direction(vec2 square) {
     return normalize(vec3(p.x, y, p.y));
 }
 
+// Across an edge of the octahedral square lies the same edge, mirrored about its middle; a small square may be left twice.
+ivec2 octahedral_border(ivec2 at, int side) {
+    while (at.x < 0 || at.x >= side) at = ivec2(at.x < 0 ? -1 - at.x : 2 * side - 1 - at.x, side - 1 - at.y);
+    while (at.y < 0 || at.y >= side) at = ivec2(side - 1 - at.x, at.y < 0 ? -1 - at.y : 2 * side - 1 - at.y);
+    return at;
+}
+
 // The frame in which wo has azimuth 0: columns tangent, bitangent, normal.
 mat3 local_frame(vec3 n, vec3 wo) {
     vec3 along = wo - dot(wo, n) * n;

@@ -10,11 +10,10 @@ layout(binding = 1, r32f) writeonly uniform image2D bandwidth;
 uniform int side;
 uniform int levels;
 
-// Constants of src/bandwidth/wavelet.h and lobe_bandwidth.h.
+// Constants of src/bandwidth/wavelet.h.
 const float sum_threshold = 0.01;
 const float energy_percentile = 0.95;
 const float rounding_floor = 1.0 / 262144.0;
-const float unbounded_bandwidth = 1e9;
 
 float weight_of(ivec2 at, int k, float local_mean) {
     float value = texelFetch(reach, at >> (k + 1), k).r;
@@ -50,8 +49,13 @@ float band_limit(ivec2 at) {
 #endif
     float finer = 0.0;
     for (int k = 0; k < levels; ++k) {
-        finer += weight_of(at, k, local_mean);
-        if (finer >= negligible) return ldexp(0.5, -k);
+        float own = weight_of(at, k, local_mean);
+#if defined(BAND_RULE_ENERGY)
+        if (finer + own >= negligible) return exp2(-1.0 - k - (negligible - finer) / own);
+#else
+        if (finer + own >= negligible) return ldexp(0.5, -k);
+#endif
+        finer += own;
     }
     return 0.0;
 }
@@ -59,8 +63,8 @@ float band_limit(ivec2 at) {
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (max(at.x, at.y) >= side) return;
-    float limit = band_limit(at);
-    float value = limit >= 0.5 ? unbounded_bandwidth : limit * side * stretch(octahedral_direction((vec2(at) + 0.5) / side));
+    // A map holds nothing beyond its texels: its bandwidth ends at theirs.
+    float value = band_limit(at) * side * stretch(octahedral_direction((vec2(at) + 0.5) / side));
     imageStore(bandwidth, at, vec4(value));
     vec4 m = imageLoad(moments, at);
     imageStore(moments, at, vec4(m.xy, m.x * value, 0));

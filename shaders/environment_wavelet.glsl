@@ -1,5 +1,6 @@
 // One level of the Daubechies-4 transform on the octahedral square (src/bandwidth/wavelet.cpp): the half-sized
 // approximation and the largest magnitude of its three details.
+#include "common.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2D finer;
@@ -12,12 +13,7 @@ uniform int finer_level;  // its mip level
 const float low[4] = float[](0.48296291, 0.83651630, 0.22414387, -0.12940952);
 const float high[4] = float[](-0.12940952, -0.22414387, 0.83651630, -0.48296291);
 
-// Beyond an edge lies the same edge, mirrored about its middle.
-float texel(int x, int y) {
-    if (x >= side) { x = 2 * side - 1 - x; y = side - 1 - y; }
-    if (y < 0 || y >= side) { y = y < 0 ? -1 - y : 2 * side - 1 - y; x = side - 1 - x; }
-    return texelFetch(finer, ivec2(x, y), finer_level).r;
-}
+float texel(int x, int y) { return texelFetch(finer, octahedral_border(ivec2(x, y), side), finer_level).r; }
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);

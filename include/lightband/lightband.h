@@ -357,7 +357,7 @@ LB_API const char* lb_frame_buffer_name(uint32_t index);
 
 /* Fields of a map:
  *   radiance   float32 [H][W][3]  as loaded
- *   bandwidth  float32 [S][S]     cycles/radian on the octahedral square (docs/conventions.md); 1e9 where unbounded */
+ *   bandwidth  float32 [S][S]     cycles/radian on the octahedral square (docs/conventions.md) */
 LB_API lb_result lb_environment_map(lb_environment environment, const char* name, lb_buffer* buffer,
                                     lb_buffer_view* view);
 

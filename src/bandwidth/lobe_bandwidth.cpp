@@ -35,13 +35,12 @@ void analyse_view(const Brdf& brdf, BandRule rule, int view, float* out) {
     const double cosine = (view + 0.5) / LobeBandwidth::views;
     const Vec3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
     const SquareImage image = lobe_image(brdf, wo);
-    const SquareImage limits = local_band_limits(analyse(image, clamped_border), side, clamped_border, rule);
+    const std::vector<BandLimit> limits = local_band_limits(analyse(image, clamped_border), side, clamped_border, rule);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-            const double limit = limits.at(x, y);
+            const BandLimit limit = limits[size_t(y * side + x)];
             const Vec3 wi = HemiOctahedral::to_direction(Vec2((x + 0.5) / side, (y + 0.5) / side));
-            const double value =
-                limit >= 0.5 ? unbounded_bandwidth : limit * side * stretch(HemiOctahedral{}, wi);
+            const double value = limit.open ? unbounded_bandwidth : limit.frequency * side * stretch(HemiOctahedral{}, wi);
             float& cell = out[(y / reduction) * LobeBandwidth::side + x / reduction];
             cell = std::max(cell, float(value));
         }

@@ -48,11 +48,12 @@ double reaching(const SquareImage& band, int x, int y, const Border& border) {
 }  // namespace
 
 void octahedral_border(int side, int& x, int& y) {
-    if (x < 0 || x >= side) {
+    // A support may reach around a side of one or two texels more than once.
+    while (x < 0 || x >= side) {
         x = x < 0 ? -1 - x : 2 * side - 1 - x;
         y = side - 1 - y;
     }
-    if (y < 0 || y >= side) {
+    while (y < 0 || y >= side) {
         y = y < 0 ? -1 - y : 2 * side - 1 - y;
         x = side - 1 - x;
     }
@@ -66,7 +67,7 @@ void clamped_border(int side, int& x, int& y) {
 WaveletBands analyse(const SquareImage& image, const Border& border) {
     WaveletBands bands;
     bands.smooth = image;
-    while (bands.smooth.size > 4) {
+    while (bands.smooth.size > 1) {
         const int half = bands.smooth.size / 2;
         SquareImage smooth(half), detail(half);
         split(bands.smooth, border, &smooth, &detail);
@@ -76,7 +77,7 @@ WaveletBands analyse(const SquareImage& image, const Border& border) {
     return bands;
 }
 
-double band_limit(const double* maxima, int levels, double local_mean, BandRule rule) {
+BandLimit band_limit(const double* maxima, int levels, double local_mean, BandRule rule) {
     std::vector<double> weight(static_cast<size_t>(levels));
     double largest = 0, total = 0;
     for (int k = 0; k < levels; ++k) {
@@ -87,17 +88,21 @@ double band_limit(const double* maxima, int levels, double local_mean, BandRule 
         largest = std::max(largest, weight[size_t(k)]);
         total += weight[size_t(k)];
     }
-    if (largest == 0) return 0;
+    if (largest == 0) return {0, false};
     const double negligible = rule == BandRule::sum ? sum_threshold * largest : (1 - energy_percentile) * total;
     double finer = 0;
     for (int k = 0; k < levels; ++k) {
-        finer += weight[size_t(k)];
-        if (finer >= negligible) return std::ldexp(0.5, -k);
+        const double own = weight[size_t(k)];
+        if (finer + own >= negligible) {
+            const double part = rule == BandRule::sum ? 0 : (negligible - finer) / own;
+            return {std::exp2(-1 - k - part), k == 0};
+        }
+        finer += own;
     }
-    return 0;
+    return {0, false};
 }
 
-SquareImage local_band_limits(const WaveletBands& bands, int size, const Border& border, BandRule rule) {
+std::vector<BandLimit> local_band_limits(const WaveletBands& bands, int size, const Border& border, BandRule rule) {
     const int levels = int(bands.details.size());
     std::vector<SquareImage> maxima;
     for (const SquareImage& band : bands.details) {
@@ -106,14 +111,14 @@ SquareImage local_band_limits(const WaveletBands& bands, int size, const Border&
             for (int x = 0; x < band.size; ++x) reach.at(x, y) = reaching(band, x, y, border);
         maxima.push_back(std::move(reach));
     }
-    SquareImage limits(size);
+    std::vector<BandLimit> limits(size_t(size) * size_t(size));
     std::vector<double> local(static_cast<size_t>(levels));
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             for (int k = 0; k < levels; ++k) local[size_t(k)] = maxima[size_t(k)].at(x >> (k + 1), y >> (k + 1));
             // The approximation of the last level is the local mean times 2^levels.
             const double mean = std::abs(std::ldexp(bands.smooth.at(x >> levels, y >> levels), -levels));
-            limits.at(x, y) = band_limit(local.data(), levels, mean, rule);
+            limits[size_t(y) * size_t(size) + size_t(x)] = band_limit(local.data(), levels, mean, rule);
         }
     return limits;
 }

@@ -29,19 +29,22 @@ struct WaveletBands {
     SquareImage smooth;
 };
 
-// size must be a power of two; stops at bands of 4 x 4.
+// size must be a power of two; goes down to a single texel.
 WaveletBands analyse(const SquareImage& image, const Border& border);
 
-// Which bands count. The paper states two rules that differ: eq. 7 compares sums of maxima with 1 % of the largest;
-// figure 6 takes the 95th percentile of the energy.
+// Which bands count. The paper states two rules that differ. sum (eq. 7): the finest band from which on the sum of maxima
+// reaches 1 % of the largest maximum; its fine end is the bandwidth. energy (figure 6): the 95th percentile of the energy,
+// taken as spread evenly over the logarithm of frequency within its band, so that the result has no steps.
 enum class BandRule { sum, energy };
 
-// A local band as a frequency: cycles per texel at the fine end of the finest band that counts. 0.5 when the finest
-// level counts, halved with each coarser one; 0 where nothing but the rounding of float input is left.
-double band_limit(const double* maxima, int levels, double local_mean, BandRule rule);
+struct BandLimit {
+    double frequency;  // cycles per texel, at most 0.5; 0 where nothing but the rounding of float input is left
+    bool open;         // the finest level counts: the true limit may lie beyond what the texels can show
+};
+BandLimit band_limit(const double* maxima, int levels, double local_mean, BandRule rule);
 
 // band_limit at every texel, from the coefficients whose support holds it.
-SquareImage local_band_limits(const WaveletBands& bands, int size, const Border& border, BandRule rule);
+std::vector<BandLimit> local_band_limits(const WaveletBands& bands, int size, const Border& border, BandRule rule);
 
 // eq. 7's epsilon, and figure 6's percentile.
 constexpr double sum_threshold = 0.01;

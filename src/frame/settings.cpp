@@ -47,9 +47,9 @@ const lb_setting_info table[place_count] = {
     choice_of("transport", "correlated|box", "correlated",
               "Form of the reflection operator. box: as printed in figure 4. correlated: spatial and angular bandwidth of distant "
               "light are cut together (docs/decisions/0001)."),
-    choice_of("band_rule", "sum|energy", "sum",
-              "Which wavelet bands count. sum: eq. 7, one percent of the largest coefficient. energy: figure 6, the 95th "
-              "percentile."),
+    choice_of("band_rule", "energy|sum", "energy",
+              "Which wavelet bands count. energy: figure 6, the 95th percentile of energy. sum: eq. 7, one percent of the largest "
+              "coefficient (docs/decisions/0002)."),
     choice_of("variance", "moments|printed", "moments",
               "Predicted variance. moments: of importance-sampled light, from the map's local second moments. printed: the bound "
               "of eq. 9 for uniform sampling."),
@@ -149,7 +149,7 @@ Method Settings::method() const { return values_[place_method] == 0 ? Method::ad
 TransportForm Settings::transport() const {
     return values_[place_transport] == 0 ? TransportForm::correlated : TransportForm::box;
 }
-BandRule Settings::band_rule() const { return values_[place_band_rule] == 0 ? BandRule::sum : BandRule::energy; }
+BandRule Settings::band_rule() const { return values_[place_band_rule] == 0 ? BandRule::energy : BandRule::sum; }
 Variance Settings::variance() const { return values_[place_variance] == 0 ? Variance::moments : Variance::printed; }
 Allocation Settings::allocation() const {
     return values_[place_allocation] == 0 ? Allocation::least_error : Allocation::constant_variance;

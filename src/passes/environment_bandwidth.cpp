@@ -33,7 +33,7 @@ EnvironmentBandwidth environment_bandwidth(gl::Device& device, const gl::Texture
     EnvironmentBandwidth result;
     const uint32_t side = result.side = side_for(map_height);
     const uint32_t all_levels = uint32_t(std::log2(side)) + 1;
-    const uint32_t levels = all_levels - 3;  // wavelet levels: down to bands of 4 x 4
+    const uint32_t levels = all_levels - 1;  // of wavelets: down to a single texel
     result.moments = gl::Texture::image(gl, GL_RGBA32F, side, side, all_levels);
     result.bandwidth = gl::Texture::image(gl, GL_R32F, side, side);
     // Level k of these pyramids is the transform's level k (approximation), k + 1 (details and their reach).
