@@ -4,7 +4,7 @@
 #include "api/border.h"
 #include "io/image_file.h"
 #include "io/merl.h"
-#include "scene/builtin_materials.h"
+#include "materials/builtin_materials.h"
 
 using namespace lightband;
 using namespace lightband::api;

@@ -9,9 +9,9 @@
 
 #include "io/merl.h"
 #include "io_testing.h"
-#include "scene/builtin_materials.h"
-#include "scene/builtin_models.h"
-#include "scene/coated_flakes.h"
+#include "materials/builtin_materials.h"
+#include "materials/builtin_models.h"
+#include "materials/coated_flakes.h"
 
 namespace lightband {
 namespace {

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "io_testing.h"
-#include "scene/coated_flakes.h"
-#include "scene/microfacet.h"
-#include "scene/optical_constants.h"
-#include "scene/reflectance_curve.h"
+#include "materials/coated_flakes.h"
+#include "materials/microfacet.h"
+#include "materials/optical_constants.h"
+#include "materials/reflectance_curve.h"
 
 namespace lightband {
 namespace {

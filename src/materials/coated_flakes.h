@@ -1,9 +1,9 @@
 // Paint of reflecting flakes and a matte pigment under a clear coat: a broad lobe, a diffuse part, a narrow lobe.
 #pragma once
 
-#include "scene/optical_constants.h"
-#include "scene/reflectance_curve.h"
-#include "scene/reflectance_model.h"
+#include "materials/optical_constants.h"
+#include "materials/reflectance_curve.h"
+#include "materials/reflectance_model.h"
 
 namespace lightband {
 

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "scene/cosine_curve.h"
-#include "scene/reflectance_model.h"
+#include "materials/cosine_curve.h"
+#include "materials/reflectance_model.h"
 
 namespace lightband {
 

@@ -1,4 +1,4 @@
-#include "scene/optical_constants.h"
+#include "materials/optical_constants.h"
 
 #include <algorithm>
 #include <cmath>

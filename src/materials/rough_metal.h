@@ -1,9 +1,9 @@
 // Ground metal: GGX microfacets with Fresnel's reflectance, one bounce (what facets reflect to facets is lost).
 #pragma once
 
-#include "scene/optical_constants.h"
-#include "scene/reflectance_curve.h"
-#include "scene/reflectance_model.h"
+#include "materials/optical_constants.h"
+#include "materials/reflectance_curve.h"
+#include "materials/reflectance_model.h"
 
 namespace lightband {
 

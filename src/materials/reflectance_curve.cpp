@@ -1,4 +1,4 @@
-#include "scene/reflectance_curve.h"
+#include "materials/reflectance_curve.h"
 
 #include <algorithm>
 

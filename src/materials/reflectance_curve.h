@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "scene/cosine_curve.h"
-#include "scene/spectrum.h"
+#include "materials/cosine_curve.h"
+#include "materials/spectrum.h"
 
 namespace lightband {
 

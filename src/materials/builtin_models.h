@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "scene/reflectance_model.h"
+#include "materials/reflectance_model.h"
 
 namespace lightband {
 

@@ -1,6 +1,6 @@
-#include "scene/rough_metal.h"
+#include "materials/rough_metal.h"
 
-#include "scene/microfacet.h"
+#include "materials/microfacet.h"
 
 namespace lightband {
 

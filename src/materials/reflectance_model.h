@@ -5,7 +5,7 @@
 
 #include "base/math.h"
 #include "scene/brdf_table.h"
-#include "scene/direction_pair.h"
+#include "materials/direction_pair.h"
 
 namespace lightband {
 

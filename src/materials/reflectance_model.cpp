@@ -1,4 +1,4 @@
-#include "scene/reflectance_model.h"
+#include "materials/reflectance_model.h"
 
 #include <cmath>
 

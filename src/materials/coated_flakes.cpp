@@ -1,8 +1,8 @@
-#include "scene/coated_flakes.h"
+#include "materials/coated_flakes.h"
 
 #include <cmath>
 
-#include "scene/microfacet.h"
+#include "materials/microfacet.h"
 
 namespace lightband {
 

@@ -1,8 +1,8 @@
 // Measured refractive indices over the visible range, 380 to 780 nm.
 #pragma once
 
-#include "scene/optics.h"
-#include "scene/spectrum.h"
+#include "materials/optics.h"
+#include "materials/spectrum.h"
 
 namespace lightband {
 

@@ -1,8 +1,8 @@
-#include "scene/builtin_models.h"
+#include "materials/builtin_models.h"
 
-#include "scene/coated_flakes.h"
-#include "scene/coupled_matte.h"
-#include "scene/rough_metal.h"
+#include "materials/coated_flakes.h"
+#include "materials/coupled_matte.h"
+#include "materials/rough_metal.h"
 
 namespace lightband {
 

@@ -1,4 +1,4 @@
-#include "scene/spectrum.h"
+#include "materials/spectrum.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "scene/builtin_materials.h"
+#include "materials/builtin_materials.h"
 
 #include <cmath>
 #include <filesystem>
 
 #include "base/error.h"
 #include "io/merl.h"
-#include "scene/builtin_models.h"
+#include "materials/builtin_models.h"
 
 namespace lightband {
 

@@ -1,4 +1,4 @@
-#include "scene/optics.h"
+#include "materials/optics.h"
 
 #include <cmath>
 

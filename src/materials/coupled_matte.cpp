@@ -1,10 +1,10 @@
-#include "scene/coupled_matte.h"
+#include "materials/coupled_matte.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scene/microfacet.h"
-#include "scene/optics.h"
+#include "materials/microfacet.h"
+#include "materials/optics.h"
 
 namespace lightband {
 

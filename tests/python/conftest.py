@@ -1,0 +1,48 @@
+"""A device, a scene and a rendered frame that the tests share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import lightband
+
+
+@pytest.fixture(scope="session")
+def context() -> Iterator[lightband.Context]:
+    """Software rendering: the tests ask the same of every machine."""
+    with lightband.Context(device="software", cache_path="") as device:
+        yield device
+
+
+@pytest.fixture(scope="session")
+def environment(context: lightband.Context) -> lightband.Environment:
+    """A smooth sky, brighter above: radiance from 0.5 to 1.5 by the row."""
+    rows = np.linspace(1.5, 0.5, 16, dtype=np.float32)
+    return context.environment(np.broadcast_to(rows[:, None, None], (16, 32, 3)))
+
+
+@pytest.fixture(scope="session")
+def scene(context: lightband.Context, environment: lightband.Environment) -> lightband.Scene:
+    """A sphere in the middle, with background around it."""
+    made = context.scene()
+    made.add(context.builtin_mesh("sphere", 32), context.lambert(0.5))
+    made.environment = environment
+    made.camera(eye=(0, 0, 3), target=(0, 0, 0))
+    return made
+
+
+@pytest.fixture(scope="session")
+def rendered(context: lightband.Context, scene: lightband.Scene) -> lightband.Frame:
+    """A frame that no test changes. Wider than high, so that a swap of the two shows."""
+    frame = context.frame(40, 24, samples=8)
+    frame.render(scene)
+    return frame
+
+
+@pytest.fixture
+def frame(context: lightband.Context) -> lightband.Frame:
+    """A frame of a test's own, not rendered."""
+    return context.frame(40, 24, samples=8)

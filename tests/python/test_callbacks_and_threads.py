@@ -1,0 +1,278 @@
+"""Progress, cancelling, the log, Ctrl-C, and other threads while the library works."""
+
+from __future__ import annotations
+
+import _thread
+import gc
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+
+import lightband
+
+PATIENCE = 60.0  # seconds after which a thread that has not ended counts as stuck
+
+
+@pytest.fixture
+def long_frame(context: lightband.Context) -> lightband.Frame:
+    """A frame that takes a good part of a second and reports progress on the way."""
+    return context.frame(64, 64, samples=64, accumulate=8, method="reference")
+
+
+def run_to_the_end(work: Callable[[], object]) -> None:
+    """Runs work in a thread; fails where it hangs."""
+    failures: list[BaseException] = []
+
+    def guarded() -> None:
+        try:
+            work()
+        except BaseException as failure:
+            failures.append(failure)
+
+    thread = threading.Thread(target=guarded, daemon=True)
+    thread.start()
+    thread.join(PATIENCE)
+    assert not thread.is_alive(), "stuck: probably two threads wait for each other"
+    if failures:
+        raise failures[0]
+
+
+def test_progress_rises_from_0_to_1(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+    fractions: list[float] = []
+    long_frame.render(scene, progress=fractions.append)
+    assert len(fractions) >= 3
+    assert fractions == sorted(fractions)
+    assert 0 <= fractions[0] and fractions[-1] <= 1
+    assert all(type(fraction) is float for fraction in fractions)
+
+
+def test_progress_runs_on_the_calling_thread(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+    threads: set[int] = set()
+    long_frame.render(scene, progress=lambda _: threads.add(threading.get_ident()))
+    assert threads == {threading.get_ident()}
+
+
+@pytest.mark.parametrize("answer", [True, 1, "yes"])
+def test_a_true_answer_cancels(long_frame: lightband.Frame, scene: lightband.Scene, answer: object) -> None:
+    long_frame.render(scene)
+    before = long_frame.color
+    long_frame["seed"] = 1
+    calls = 0
+
+    def stop(_: float) -> object:
+        nonlocal calls
+        calls += 1
+        return answer
+
+    with pytest.raises(lightband.Cancelled):
+        long_frame.render(scene, progress=stop)
+    assert calls == 1
+    np.testing.assert_array_equal(long_frame.color, before)
+
+
+@pytest.mark.parametrize("answer", [None, False, 0, ""])
+def test_any_other_answer_goes_on(long_frame: lightband.Frame, scene: lightband.Scene, answer: object) -> None:
+    long_frame.render(scene, progress=lambda _: answer)
+    assert long_frame.stats.covered_pixels > 0
+
+
+class Mishap(Exception):
+    pass
+
+
+def test_an_exception_of_the_callback_comes_back_itself(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+    mishap = Mishap("of the callback")
+
+    def fail(_: float) -> None:
+        raise mishap
+
+    with pytest.raises(Mishap) as caught:
+        long_frame.render(scene, progress=fail)
+    assert caught.value is mishap
+    with pytest.raises(lightband.StateError):
+        long_frame.color
+    long_frame.render(scene)
+
+
+def test_an_answer_without_truth_value_is_an_error(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+    with pytest.raises(ValueError, match="ambiguous"):
+        long_frame.render(scene, progress=lambda _: np.zeros(2))
+
+
+def test_ctrl_c_without_a_callback(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+    long_frame["accumulate"] = 4096  # minutes, were it not interrupted
+    timer = threading.Timer(0.3, _thread.interrupt_main)
+    timer.start()
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        long_frame.render(scene)
+    timer.join()
+    assert time.monotonic() - started < PATIENCE
+    long_frame["accumulate"] = 1
+    long_frame.render(scene)
+
+
+def test_other_threads_run_while_a_frame_renders(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+    """Without a callback that could let them in: Python's own switching is made longer than the frame."""
+    count, done = 0, threading.Event()
+
+    def run() -> None:
+        nonlocal count
+        while not done.is_set():
+            count += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    before = count
+    started = time.monotonic()
+    long_frame.render(scene)
+    elapsed, counted = time.monotonic() - started, count - before
+    done.set()
+    thread.join()
+    # A thread shut out would count once for each of the few progress reports.
+    assert counted > 0.05 * elapsed / 0.001
+    assert counted > 20
+
+
+def test_threads_that_ask_during_a_render_wait_and_go_on(
+    context: lightband.Context, long_frame: lightband.Frame, scene: lightband.Scene
+) -> None:
+    """Were the interpreter held inside the library, asker and callback would wait for each other."""
+    started, answers = threading.Event(), []
+    mesh = context.builtin_mesh("plane", 8)
+
+    def ask() -> None:
+        started.wait(PATIENCE)
+        for _ in range(20):
+            answers.append(mesh.stats.triangles)
+            context.lambert(0.5).close()
+            context.builtin_mesh("plane", 8)
+            gc.collect()
+
+    asker = threading.Thread(target=ask, daemon=True)
+    asker.start()
+
+    def report(_: float) -> None:
+        started.set()
+        time.sleep(0.002)
+
+    run_to_the_end(lambda: long_frame.render(scene, progress=report))
+    asker.join(PATIENCE)
+    assert not asker.is_alive() and len(answers) == 20
+
+
+def test_two_contexts_render_at_once(scene: lightband.Scene, context: lightband.Context) -> None:
+    with lightband.Context(device="software", cache_path="") as other:
+        second = other.scene()
+        second.add(other.builtin_mesh("sphere", 32), other.lambert(0.5))
+        second.environment = other.environment(scene.environment.radiance)
+        second.camera((0, 0, 3), (0, 0, 0))
+        frames = [(context.frame(32, 32, samples=16), scene), (other.frame(32, 32, samples=16), second)]
+        threads = [threading.Thread(target=frame.render, args=(what,)) for frame, what in frames]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(PATIENCE)
+        np.testing.assert_array_equal(frames[0][0].color, frames[1][0].color)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda context, frame, scene: frame.stats,
+        lambda context, frame, scene: frame.color,
+        lambda context, frame, scene: frame.render(scene),
+        lambda context, frame, scene: context.lambert(0.5),
+        lambda context, frame, scene: lightband.Context(device="software"),
+        lambda context, frame, scene: frame.__setitem__("samples", 3),
+        lambda context, frame, scene: scene.add(None, None) if False else scene.set_transform(0, np.eye(4)),
+    ],
+    ids=["stats", "color", "render", "lambert", "Context", "setting", "set_transform"],
+)
+def test_a_callback_must_not_call_the_library(
+    context: lightband.Context,
+    long_frame: lightband.Frame,
+    scene: lightband.Scene,
+    call: Callable[[lightband.Context, lightband.Frame, lightband.Scene], object],
+) -> None:
+    refused = 0
+
+    def report(_: float) -> None:
+        nonlocal refused
+        with pytest.raises(lightband.StateError, match="callback"):
+            call(context, long_frame, scene)
+        refused += 1
+
+    run_to_the_end(lambda: long_frame.render(scene, progress=report))
+    assert refused >= 3
+
+
+def test_objects_may_die_in_a_callback(
+    context: lightband.Context, long_frame: lightband.Frame, scene: lightband.Scene
+) -> None:
+    objects: list[object] = [context.builtin_mesh("plane", 8) for _ in range(4)]
+    objects += [context.lambert(0.1), context.frame(4, 4), context.environment(np.ones((2, 4, 3)))]
+    kept = context.lambert(0.2)
+
+    def report(_: float) -> None:
+        if objects:
+            objects.pop()
+        kept.close()
+
+    run_to_the_end(lambda: long_frame.render(scene, progress=report))
+    with pytest.raises(lightband.InvalidHandle):
+        kept.albedo(0)
+
+
+def test_an_array_may_die_in_a_callback(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+    long_frame.render(scene)
+    arrays = [long_frame.color]
+    run_to_the_end(lambda: long_frame.render(scene, progress=lambda _: arrays.clear()))
+
+
+@pytest.fixture
+def unraisable(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[BaseException | None]]:
+    heard: list[BaseException | None] = []
+    monkeypatch.setattr("sys.unraisablehook", lambda unraised: heard.append(unraised.exc_value))
+    yield heard
+
+
+def test_the_log_hears_the_library() -> None:
+    heard: list[str] = []
+    with lightband.Context(device="software", cache_path="", log=heard.append) as context:
+        context.lambert(0.5)
+        assert any(context.device_name in message for message in heard)
+    assert all(type(message) is str for message in heard)
+
+
+def test_the_log_lives_as_long_as_what_may_call_it() -> None:
+    heard: list[str] = []
+    context = lightband.Context(device="software", cache_path="", log=lambda message: heard.append(message))
+    mesh = context.builtin_mesh("plane", 8)
+    del context
+    gc.collect()
+    assert mesh.stats.triangles > 0
+    del mesh
+    gc.collect()
+
+
+def test_an_exception_of_the_log_is_unraisable(unraisable: list[BaseException | None]) -> None:
+    mishap = Mishap("of the log")
+
+    def fail(_: str) -> None:
+        raise mishap
+
+    lightband.Context(device="software", cache_path="", log=fail).close()
+    assert unraisable and set(unraisable) == {mishap}
+
+
+def test_silence_without_a_log(
+    capfd: pytest.CaptureFixture[str], long_frame: lightband.Frame, scene: lightband.Scene
+) -> None:
+    lightband.Context(device="software", cache_path="").close()
+    long_frame.render(scene)
+    assert capfd.readouterr() == ("", "")
