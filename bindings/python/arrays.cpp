@@ -3,7 +3,7 @@
 #include <limits>
 #include <sstream>
 
-#include "call.h"
+#include "objects.h"
 
 namespace lightband_python {
 
@@ -159,14 +159,15 @@ std::vector<py::ssize_t> shape_of(const py::array& array) {
 }
 
 void bind_field_buffer(py::module_& module) {
-    py::class_<FieldBuffer, std::shared_ptr<FieldBuffer>>(module, "Buffer", R"(The library's memory of one field.
+    py::class_<FieldBuffer, std::shared_ptr<FieldBuffer>> type(module, "Buffer", R"(The library's memory of one field.
 
 The base of every array that the library returns: it keeps the memory alive as long as any array shows it, whatever
 happens to the frame, material or map that it came from, and says what the numbers mean:
 
     >>> frame.bandwidth_image.base.unit
-    '1/pixel')")
-        .def_readonly("name", &FieldBuffer::name, "Name of the field.")
+    '1/pixel')");
+    refuse_pickling(type);
+    type.def_readonly("name", &FieldBuffer::name, "Name of the field.")
         .def_property_readonly(
             "unit", [](const FieldBuffer& self) { return to_str(self.buffer.view().unit); }, "Unit of the elements.")
         .def("__repr__", [](const FieldBuffer& self) {

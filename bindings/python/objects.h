@@ -45,6 +45,15 @@ struct Frame {
     uint32_t height;
 };
 
+// A handle has no meaning in another process. Left to itself, the oldest protocols of pickle would abort.
+template <typename Object>
+void refuse_pickling(py::class_<Object, std::shared_ptr<Object>>& type) {
+    type.def("__reduce_ex__", [](const py::object& self, int) -> py::object {
+        const auto name = py::cast<std::string>(py::type::of(self).attr("__name__"));
+        throw py::type_error("cannot pickle a lightband." + name);
+    });
+}
+
 // Adds close() and the with statement to the class of a handle. Closing drops this object's reference; objects made
 // from it keep what they need.
 template <typename Object>
@@ -53,6 +62,7 @@ void bind_closing(py::class_<Object, std::shared_ptr<Object>>& type) {
         auto last = std::make_shared<decltype(self.handle)>(std::move(self.handle));
         destroy_outside([last = std::move(last)]() mutable { last.reset(); });
     };
+    refuse_pickling(type);
     type.def("close", close,
              "Releases the handle now instead of when the object is collected. Calls on it then raise InvalidHandle; "
              "objects made from it live on.");

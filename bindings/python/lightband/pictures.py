@@ -26,8 +26,8 @@ try:
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import BoundaryNorm, Colormap, FuncNorm, ListedColormap, LogNorm, Normalize
     from matplotlib.figure import Figure
-except ImportError as missing:
-    raise ImportError("lightband.pictures needs Matplotlib: pip install 'lightband[pictures]'") from missing
+except ImportError as _missing:
+    raise ImportError("lightband.pictures needs Matplotlib: pip install 'lightband[pictures]'") from _missing
 
 __all__ = ["Pair", "draw_fields", "draw_pairs", "rank_correlation"]
 
@@ -56,6 +56,10 @@ ROW_GAP = 0.14
 MARGIN = 0.15
 HEADING = 0.32
 LEVEL_GAP = 0.1
+SLIVER = 0.3  # least side of an image
+LINE = 0.19  # from one line of text to the next
+WIDEST_NUMBER = 0.55
+WIDEST_TITLE = 0.95  # of a level of a pyramid, or of one map of a pair
 AXIS = 0.6  # numbers and label along an axis
 LEAST_SCATTER = 1.8
 PANEL = BOX + BAR_GAP + BAR_WIDTH + NUMBERS
@@ -264,9 +268,9 @@ class Size(NamedTuple):
 
 
 def fitted(columns: int, rows: int, box: float) -> Size:
-    """The size of an image of so many pixels that fills a square box; a sliver stays visible."""
+    """The size of an image of so many pixels that fills a square box; a sliver is widened until it can be seen."""
     longest = max(columns, rows)
-    return Size(max(box * columns / longest, 0.1), max(box * rows / longest, 0.1))
+    return Size(max(box * columns / longest, SLIVER), max(box * rows / longest, SLIVER))
 
 
 class Sheet:
@@ -297,19 +301,27 @@ class Sheet:
             ramp = np.linspace(1, 0, 256)[:, None, None] * np.eye(3)
             axes.imshow(ramp, aspect="auto", extent=(0, 3, 0, 1))
             axes.set_xticks([])
-            axes.set_yticks(picture.ticks)
             axes.yaxis.tick_right()
-            axes.set_yticklabels(picture.labels)
         else:
-            bar = self.figure.colorbar(picture.key, cax=axes)
-            bar.set_ticks(list(picture.ticks), labels=list(picture.labels))
-            bar.minorticks_off()
+            self.figure.colorbar(picture.key, cax=axes).minorticks_off()
+        places = axes.transData.transform([(0, tick) for tick in picture.ticks])[:, 1]
+        shown = spaced(places - places[0], LINE)
+        axes.set_yticks([picture.ticks[i] for i in shown], [picture.labels[i] for i in shown])
         axes.tick_params(length=2, width=0.6, pad=2, labelsize=FONT_SIZE)
 
     def save(self, path: str | PathLike[str] | None) -> Figure:
         if path is not None:
             self.figure.savefig(path)
         return self.figure
+
+
+def spaced(pixels: Floats, least: float) -> list[int]:
+    """Which of rising places to label, so that each is at least so many inches beyond the one before."""
+    chosen: list[int] = []
+    for i, place in enumerate(pixels / DOTS_PER_INCH):
+        if not chosen or place - pixels[chosen[-1]] / DOTS_PER_INCH >= least:
+            chosen.append(i)
+    return chosen
 
 
 def unit_of(array: NDArray[Any]) -> str:
@@ -414,8 +426,9 @@ def draw_pyramid(sheet: Sheet, top: float, size: Size, name: str, views: list[An
         else:
             picture = show_scalar(level, mask, scale, style.colours)
         sheet.image(left, top + TITLE, size, picture.rgba, f"{k}: {level.shape[1]} x {level.shape[0]}")
-        left += size.width + LEVEL_GAP
-    sheet.key(left - LEVEL_GAP + BAR_GAP, top + TITLE, size.height, picture)
+        right = left + size.width
+        left += max(size.width, WIDEST_TITLE) + LEVEL_GAP
+    sheet.key(right + BAR_GAP, top + TITLE, size.height, picture)
 
 
 def halved(seen: Mask) -> Mask:
@@ -511,10 +524,10 @@ def draw_pair(
     for values, label in ((predicted, labels[0]), (measured, labels[1])):
         picture = show_scalar(values, shown, scale, "inferno")
         sheet.image(left, top + TITLE, size, picture.rgba, label)
-        left += size.width + MARGIN
-    left += BAR_GAP - MARGIN
-    sheet.key(left, top + TITLE, size.height, picture)
-    left += BAR_WIDTH + NUMBERS + AXIS
+        right = left + size.width
+        left += max(size.width, WIDEST_TITLE) + MARGIN
+    sheet.key(right + BAR_GAP, top + TITLE, size.height, picture)
+    left = right + BAR_GAP + BAR_WIDTH + NUMBERS + AXIS
     side = max(size.height, LEAST_SCATTER)
     axes = sheet.axes(left, top + 2 * TITLE, side, side)
     draw_scatter(axes, predicted[shown], measured[shown], scale, labels)
@@ -543,8 +556,13 @@ def draw_scatter(
             linewidths=0.1,
         )
     axes.plot((low, high), (low, high), color="black", linewidth=0.8)
-    few = ticks[:: math.ceil(len(ticks) / 5)]
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_ticks(few, labels=[number_label(tick) for tick in few])
+    corner = axes.transData.transform((low, low))
+    places = axes.transData.transform([(tick, tick) for tick in ticks]) - corner
+    clear = [
+        i for i in range(len(ticks)) if places[i, 1] >= LINE / 2 * DOTS_PER_INCH
+    ]  # of the labels of the other axis
+    for axis, spacing, which in ((axes.xaxis, WIDEST_NUMBER, 0), (axes.yaxis, LINE, 1)):
+        shown = [clear[i] for i in spaced(places[clear, which], spacing)]
+        axis.set_ticks([ticks[i] for i in shown], labels=[number_label(ticks[i]) for i in shown])
         axis.set_ticks([], minor=True)
     axes.tick_params(length=2, width=0.6, pad=2)
