@@ -1,5 +1,5 @@
 // The bandwidth buffer (section 3.1): per pixel the bandwidth of the light arriving there (eq. 5), its image bandwidth
-// (eq. 6), the level at which it may be shaded (eq. 11) and the predicted variance of a light sample (eq. 9).
+// (eq. 6) and the predicted variance of a light sample (eq. 9).
 #include "common.glsl"
 #include "transport.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -13,12 +13,9 @@ layout(binding = 5) uniform usamplerBuffer brdf_of;  // instance number + 1 -> B
 
 layout(binding = 0, rgba32f) writeonly uniform image2D bandwidth;   // spatial, angular, image, curvature
 layout(binding = 1, rg32f) writeonly uniform image2D prediction;    // variance of one sample, mean radiance (luminance)
-layout(binding = 2, r8ui) writeonly uniform uimage2D levels;
 
 uniform int pilot_count;
-uniform int coarsest_level;
 uniform float radians_per_pixel;
-uniform float bandwidth_scale;
 uniform float footprint_level;  // log2 of the moments' side, squared, over 4 pi: turns steradians into texels
 
 const float nyquist = 0.5;      // cycles per pixel: what the finest level can show
@@ -77,7 +74,6 @@ void main() {
     if (here.material == 0u) {
         imageStore(bandwidth, at, vec4(0));
         imageStore(prediction, at, vec4(0));
-        imageStore(levels, at, uvec4(255));  // nothing seen: no constraint
         return;
     }
     float distance_to_eye = length(here.position);
@@ -112,9 +108,6 @@ void main() {
     float image_bandwidth = min(nu.y * radians_per_pixel, nyquist);
     // Where the surface is not known around the pixel, nothing may be interpolated.
     if (curvature < 0.0) image_bandwidth = nyquist;
-    float scaled = image_bandwidth * bandwidth_scale;
-    float level = scaled > 0.0 ? clamp(floor(log2(nyquist / scaled)), 0.0, float(coarsest_level)) : float(coarsest_level);
-
     float mean = weights / pilot_count;
 #if defined(VARIANCE_PRINTED)
     float variance = 4.0 * pi * pi * printed / pilot_count;
@@ -123,5 +116,4 @@ void main() {
 #endif
     imageStore(bandwidth, at, vec4(nu, image_bandwidth, max(curvature, 0.0)));
     imageStore(prediction, at, vec4(variance, mean, 0, 0));
-    imageStore(levels, at, uvec4(uint(level)));
 }

@@ -6,6 +6,7 @@ layout(binding = 3) uniform usamplerBuffer brdf_of;
 #if !defined(SHADE_ALL)
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
 layout(binding = 1, r32f) readonly uniform image2D variances;
+layout(binding = 4) uniform sampler2D bandwidth;
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
 #endif
@@ -68,7 +69,7 @@ void main() {
     shade(at, material, BINS / 2);
 #else
     uint own = imageLoad(levels, at).r;
-    if (own == 0u) atomicAdd(counts.saturated, 1u);
+    if (texelFetch(bandwidth, at, 0).b >= 0.5) atomicAdd(counts.saturated, 1u);
     int level = lattice_level(at, coarsest_level);
     int least;
     float variance;

@@ -1,10 +1,17 @@
 // One level of the pyramids of section 3.1: the least level (what a block needs at its worst pixel) and the largest relative
-// variance. Both pyramids are pictures with each level below the finer one.
+// variance. Both pyramids are pictures with each level below the finer one. The first level comes from the prediction (eq. 11).
+#if defined(FIRST_LEVEL)
+#include "relative_variance.glsl"
+#endif
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #if defined(FIRST_LEVEL)
 layout(binding = 0) uniform sampler2D prediction;
+layout(binding = 1) uniform sampler2D bandwidth;
+layout(binding = 2) uniform usampler2D materials;
 uniform float mean_radiance;  // of the covered pixels
+uniform float bandwidth_scale;
+uniform int coarsest_level;
 #endif
 layout(binding = 0, r8ui) uniform uimage2D levels;
 layout(binding = 1, r32f) uniform image2D variances;
@@ -12,16 +19,21 @@ uniform ivec2 finer_size;
 uniform int finer_row;  // where the finer level starts
 uniform int row;        // where this level starts
 
-// The part of the mean that keeps dark pixels' relative errors finite: the definition of error in docs/conventions.md.
-const float dark_part = 0.01;
+#if defined(FIRST_LEVEL)
+// Nyquist: spacing <= 1 / (2 b), src/bandwidth/transport.h.
+uint shading_level(float b) {
+    return b > 0.0 ? uint(clamp(floor(log2(0.5 / b)), 0.0, float(coarsest_level))) : uint(coarsest_level);
+}
+#endif
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
 #if defined(FIRST_LEVEL)
     if (any(greaterThanEqual(at, finer_size))) return;
-    vec2 p = texelFetch(prediction, at, 0).rg;
-    float scale = p.g + dark_part * mean_radiance;
-    imageStore(variances, at, vec4(scale > 0.0 ? p.r / (scale * scale) : 0.0));
+    bool covered = texelFetch(materials, at, 0).r != 0u;
+    float b = bandwidth_scale * texelFetch(bandwidth, at, 0).b;
+    imageStore(levels, at, uvec4(covered ? shading_level(b) : 255u));  // nothing seen: no constraint
+    imageStore(variances, at, vec4(relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance)));
 #else
     ivec2 size = (finer_size + 1) / 2;
     if (any(greaterThanEqual(at, size))) return;

@@ -83,14 +83,13 @@ void Frame::predict(const Scene& scene, Result* next, passes::Counts* counts, co
 
         next->prediction.emplace(device_->gl(), width_, height_, settings.coarsest_level());
         prediction = &*next->prediction;
-        const double sum = passes::predict(*device_, scene, slots, slot_of, settings, width_, height_, next->gbuffer, *prediction);
+        passes::predict(*device_, scene, slots, slot_of, settings, width_, height_, next->gbuffer, *prediction);
         next->plan.finished("bandwidth", text("eq. 5, 6 and 9 with ", settings.pilots(), " directions"),
                             prediction->bandwidth.bytes() + prediction->prediction.bytes(), pixels, "pixels");
-        std::vector<uint8_t> material(pixels);
-        next->gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
-        const size_t covered = pixels - size_t(std::count(material.begin(), material.end(), 0));
-        passes::pyramids(*device_, covered > 0 ? sum / double(covered) : 0.0, width_, height_, *prediction);
-        next->plan.finished("pyramids", "least level and largest variance of each block",
+        const passes::Forecast forecast = passes::forecast(*device_, next->gbuffer, *prediction, width_, height_);
+        passes::pyramids(*device_, forecast, settings, next->gbuffer, width_, height_, *prediction);
+        next->plan.finished("pyramids", text("least level and largest variance of each block, bandwidth times ",
+                                             passes::bandwidth_scale(settings, forecast)),
                             prediction->levels.bytes() + prediction->variances.bytes(), pixels, "pixels");
     }
     *counts = passes::classify(*device_, *scene.camera, slot_of, slots.materials.size(), settings, width_, height_,

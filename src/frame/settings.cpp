@@ -39,9 +39,9 @@ const lb_setting_info table[place_count] = {
     integer("samples", 1, 1 << 20, 64,
             "Light samples per shaded pixel: the mean of an adaptive frame, the constant number of a reference."),
     integer("max_samples", 1, 1 << 20, 1 << 16, "Most samples that one pixel of an adaptive frame may get."),
-    real("bandwidth_scale", 0, 1024, 0,
-         "Factor on the predicted image bandwidth before a level is chosen; more: more pixels are shaded. 0: the fourth root of "
-         "samples / 64, under which the error of linear interpolation falls as fast as the noise."),
+    real("bandwidth_scale", 0, Settings::largest_bandwidth_scale, 0,
+         "Factor on the predicted image bandwidth before a level is chosen; more: more pixels are shaded. 0: chosen so that "
+         "interpolation errs about as much as the predicted noise; it grows with samples."),
     integer("coarsest_level", 0, 8, 5, "Coarsest spacing of shaded pixels is 2^coarsest_level; 0 shades every pixel."),
     integer("pilots", 4, 1024, 16, "Directions per pixel in the prediction: n_b of eq. 5 and 9."),
     choice_of("transport", "correlated|box", "correlated",
@@ -165,10 +165,7 @@ uint32_t Settings::samples() const { return uint32_t(values_[place_samples]); }
 uint32_t Settings::max_samples() const { return uint32_t(values_[place_max_samples]); }
 uint32_t Settings::pilots() const { return uint32_t(values_[place_pilots]); }
 uint32_t Settings::coarsest_level() const { return uint32_t(values_[place_coarsest_level]); }
-double Settings::bandwidth_scale() const {
-    const double scale = values_[place_bandwidth_scale];
-    return scale > 0 ? scale : std::pow(samples() / 64.0, 0.25);
-}
+double Settings::bandwidth_scale() const { return values_[place_bandwidth_scale]; }
 uint32_t Settings::seed() const { return uint32_t(values_[place_seed]); }
 uint32_t Settings::accumulate() const { return uint32_t(values_[place_accumulate]); }
 bool Settings::background() const { return values_[place_background] != 0; }

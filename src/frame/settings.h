@@ -42,7 +42,8 @@ public:
     uint32_t max_samples() const;
     uint32_t pilots() const;
     uint32_t coarsest_level() const;
-    double bandwidth_scale() const;  // "auto" (0) resolved
+    static constexpr double largest_bandwidth_scale = 1024;
+    double bandwidth_scale() const;  // 0: to be balanced against the noise
     uint32_t seed() const;
     uint32_t accumulate() const;
     bool background() const;

@@ -43,6 +43,7 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
         program.set_array("pyramid_rows", prediction->rows.data(), int32_t(prediction->rows.size()));
         bind_image(gl, 0, prediction->levels, GL_R8UI);
         bind_image(gl, 1, prediction->variances, GL_R32F);
+        bind_texture(gl, 4, prediction->bandwidth);
     }
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_storage(gl, 0, counts);

@@ -1,5 +1,6 @@
 #include "passes/predict.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "passes/dispatch.h"
@@ -18,11 +19,18 @@ gl::Buffer all_pilots(const gl::Functions& gl, const Scene::Slots& slots, const 
     return gl::Buffer(gl, all.size() * sizeof(Pilot), all.data());
 }
 
-double sum_of_means(gl::Device& device, const Prediction& target, uint32_t height) {
+// Error of a frame whose levels follow its bandwidth unscaled, by interpolation alone: measured on the scenes of
+// bench/trade.py, where it lies between 0.01 and 0.1. It falls with the square of the spacing.
+constexpr double interpolation_error = 0.05;
+
+// Sum over the frame of what shaders/row_sums.glsl adds up.
+double row_sums(gl::Device& device, const Prediction& prediction, uint32_t height, const char* definitions, double mean) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer sums(gl, height * sizeof(float), nullptr);
-    device.compute("row_sums").use();
-    bind_texture(gl, 0, target.prediction);
+    const gl::Program& program = device.compute("row_sums", definitions);
+    program.set("mean_radiance", float(mean));
+    program.use();
+    bind_texture(gl, 0, prediction.prediction);
     bind_storage(gl, 0, sums);
     gl.DispatchCompute((height + 63) / 64, 1, 1);
     gl.MemoryBarrier(everything);
@@ -44,8 +52,8 @@ SlotTable slot_table(const gl::Functions& gl, const Scene::Slots& slots) {
     return table;
 }
 
-double predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const SlotTable& slot_of,
-               const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction& target) {
+void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const SlotTable& slot_of,
+             const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction& target) {
     const gl::Functions& gl = device.gl();
     const EnvironmentBandwidth& light = scene.light->bandwidth(settings.band_rule());
     const gl::Buffer pilots = all_pilots(gl, slots, settings);
@@ -55,9 +63,7 @@ double predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots
                           settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
                           settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : ""));
     program.set("pilot_count", int32_t(settings.pilots()));
-    program.set("coarsest_level", int32_t(settings.coarsest_level()));
     program.set("radians_per_pixel", float(scene.camera->radians_per_pixel(height)));
-    program.set("bandwidth_scale", float(settings.bandwidth_scale()));
     program.set("footprint_level", float(std::log2(double(light.side) * light.side / (4 * pi))));
     program.use();
     bind_texture(gl, 0, gbuffer.position);
@@ -68,19 +74,40 @@ double predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots
     bind_texture(gl, 5, slot_of.texture);
     bind_image(gl, 0, target.bandwidth, GL_RGBA32F);
     bind_image(gl, 1, target.prediction, GL_RG32F);
-    bind_image(gl, 2, target.levels, GL_R8UI);
     dispatch_pixels(gl, width, height);
-    return sum_of_means(device, target, height);
 }
 
-void pyramids(gl::Device& device, double mean_radiance, uint32_t width, uint32_t height, const Prediction& target) {
+Forecast forecast(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t width, uint32_t height) {
+    std::vector<uint8_t> material(size_t(width) * height);
+    gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
+    const auto covered = double(material.size() - size_t(std::count(material.begin(), material.end(), 0)));
+    Forecast result;
+    if (covered == 0) return result;
+    result.mean_radiance = row_sums(device, prediction, height, "", 0) / covered;
+    result.relative_deviation = row_sums(device, prediction, height, "DEVIATIONS", result.mean_radiance) / covered;
+    return result;
+}
+
+double bandwidth_scale(const Settings& settings, const Forecast& forecast) {
+    if (settings.bandwidth_scale() > 0) return settings.bandwidth_scale();
+    // With samples shared for least error, the noise of a frame is the mean deviation over the root of the mean count.
+    const double noise = forecast.relative_deviation / std::sqrt(double(settings.samples()));
+    return noise > 0 ? std::min(std::sqrt(interpolation_error / noise), Settings::largest_bandwidth_scale)
+                     : Settings::largest_bandwidth_scale;
+}
+
+void pyramids(gl::Device& device, const Forecast& forecast, const Settings& settings, const GBuffer& gbuffer, uint32_t width,
+              uint32_t height, const Prediction& target) {
     const gl::Functions& gl = device.gl();
     uint32_t w = width, h = height;
     for (size_t level = 0; level < target.rows.size(); ++level) {
         const gl::Program& program = device.compute("pyramid", level == 0 ? "FIRST_LEVEL" : "");
-        program.set("mean_radiance", float(mean_radiance));
         program.set("finer_size", int32_t(w), int32_t(h));
-        if (level > 0) {
+        if (level == 0) {
+            program.set("mean_radiance", float(forecast.mean_radiance));
+            program.set("bandwidth_scale", float(bandwidth_scale(settings, forecast)));
+            program.set("coarsest_level", int32_t(settings.coarsest_level()));
+        } else {
             program.set("finer_row", int32_t(target.rows[level - 1]));
             program.set("row", int32_t(target.rows[level]));
             w = (w + 1) / 2;
@@ -88,6 +115,8 @@ void pyramids(gl::Device& device, double mean_radiance, uint32_t width, uint32_t
         }
         program.use();
         bind_texture(gl, 0, target.prediction);
+        bind_texture(gl, 1, target.bandwidth);
+        bind_texture(gl, 2, gbuffer.material);
         bind_image(gl, 0, target.levels, GL_R8UI);
         bind_image(gl, 1, target.variances, GL_R32F);
         dispatch_pixels(gl, w, h);
