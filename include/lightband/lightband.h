@@ -17,7 +17,8 @@
  * Handles    Opaque and reference counted. A create call returns one reference; *_release drops it;
  *            releasing NULL does nothing. Objects keep what they need alive: a mesh keeps its context,
  *            a scene its meshes. A handle that was released is recognised (LB_ERROR_INVALID_HANDLE).
- * Structs    Begin with `struct_size`, set by the *_INIT macro beside each. Zero in a field means the default.
+ * Structs    Begin with `struct_size`, set by the *_INIT macro beside each. Zero in a field means the default. A larger
+ *            struct of a later version is accepted where its unknown tail is zero (up to 4096 bytes).
  * Threads    Every call may come from any thread. Calls on objects of one context wait for each other;
  *            objects of different contexts are independent. Callbacks run on the calling thread and must
  *            not call the library.
@@ -174,6 +175,8 @@ LB_API lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]);
 /* Distant light from a latitude-longitude map: OpenEXR (.exr, every pixel type and compression that OpenEXR
  * reads) or Radiance (.hdr). +Y is up, the image's centre looks along +Z, its left edge along -Z (OpenEXR's
  * convention); texels are sampled at their centres. 1x1 up to 16384x8192.
+ * In a map of lossy compression (DWAA, DWAB), values from -0.01 to 0 are its ringing: they become 0, and the log
+ * callback hears how many.
  * LB_ERROR_FILE, LB_ERROR_FORMAT (corrupt; a texel that is negative or not finite: the message says where). */
 LB_API lb_result lb_environment_load(lb_context context, const char* path, lb_environment* environment);
 
@@ -242,7 +245,7 @@ LB_API lb_result lb_scene_set_camera(lb_scene scene, const lb_camera_desc* camer
  * from 0; the buffer "material" holds it plus one. At most 254 instances. */
 LB_API lb_result lb_scene_add(lb_scene scene, lb_mesh mesh, lb_brdf brdf, const float* transform, uint32_t* index);
 
-/* Replaces an instance's transform. */
+/* Replaces an instance's transform; NULL: identity. */
 LB_API lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const float* transform);
 
 /* ---- Frame -------------------------------------------------------------------------------------- */

@@ -52,7 +52,7 @@ lb_result create_environment(lb_context context, lb_environment* environment, Ma
     return border([&] {
         require(environment, "environment");
         const auto owner = contexts().get(context, "context");
-        RgbImage map = make();
+        RgbImage map = make(*owner);
         const gl::Device::Guard guard(owner->device);
         give<lb_environment, const Light>(lights(), std::make_shared<const Light>(owner->device, std::move(map)), environment);
     });
@@ -177,9 +177,12 @@ lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]) {
 }
 
 lb_result lb_environment_load(lb_context context, const char* path, lb_environment* environment) {
-    return create_environment(context, environment, [&] {
+    return create_environment(context, environment, [&](const Context& owner) {
         require(path, "path");
         RgbImage map = io::read_image(path);
+        if (const size_t count = remove_ringing(&map))
+            owner.device->log(text(path, ": ", count, " values between ", -ringing, " and 0, the ringing of its lossy compression, ",
+                                   "were set to 0"));
         check_radiance(map, path, LB_ERROR_FORMAT);
         return map;
     });
@@ -187,10 +190,10 @@ lb_result lb_environment_load(lb_context context, const char* path, lb_environme
 
 lb_result lb_environment_create(lb_context context, uint32_t width, uint32_t height, const float* rgb,
                                 lb_environment* environment) {
-    return create_environment(context, environment, [&] {
+    return create_environment(context, environment, [&](const Context&) {
         require(rgb, "rgb");
         check_map_size(width, height);
-        RgbImage map{width, height, std::vector<float>(rgb, rgb + size_t(width) * height * 3)};
+        RgbImage map{width, height, std::vector<float>(rgb, rgb + size_t(width) * height * 3), false};
         check_radiance(map, "rgb", LB_ERROR_INVALID_ARGUMENT);
         return map;
     });

@@ -36,14 +36,13 @@ void append_channels(const std::string& field, const HostArray& array, std::vect
 
 void save_exr(const Frame& frame, const std::string& path, const std::string& fields) {
     std::vector<io::NamedChannel> channels;
-    std::istringstream names(fields);
+    std::istringstream names(fields + ',');  // so that an empty last name is seen
     for (std::string name; std::getline(names, name, ',');) {
         const HostArray array = frame.field(name);
         if (array.shape[0] != frame.height())
             throw Error(LB_ERROR_INVALID_ARGUMENT, text("field ", name, " is not of the picture's size and cannot be saved"));
         append_channels(name, array, &channels);
     }
-    if (channels.empty()) throw Error(LB_ERROR_INVALID_ARGUMENT, "names is empty; it must name at least one field");
     io::write_exr(path, frame.width(), frame.height(), channels);
 }
 
@@ -53,7 +52,9 @@ uint8_t srgb(double linear) {
     return uint8_t(std::lround(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
 }
 
-void save_png(const Frame& frame, const std::string& path, float exposure) {
+void save_png(const Frame& frame, const std::string& path, const std::string& fields, float exposure) {
+    if (fields != "color")
+        throw Error(LB_ERROR_INVALID_ARGUMENT, text("names is \"", fields, "\"; a PNG holds color alone"));
     if (!std::isfinite(exposure)) throw Error(LB_ERROR_INVALID_ARGUMENT, text("exposure is ", exposure, "; it must be finite"));
     const HostArray color = frame.field("color");
     const double gain = std::exp2(double(exposure));
@@ -66,7 +67,7 @@ void save_png(const Frame& frame, const std::string& path, float exposure) {
 
 void save(const Frame& frame, const std::string& path, const std::string& fields, float exposure) {
     if (ends_in(path, ".exr")) return save_exr(frame, path, fields);
-    if (ends_in(path, ".png")) return save_png(frame, path, exposure);
+    if (ends_in(path, ".png")) return save_png(frame, path, fields, exposure);
     throw Error(LB_ERROR_INVALID_ARGUMENT, text("path \"", path, "\" must end in .exr or .png"));
 }
 

@@ -204,7 +204,11 @@ RgbImage read_first_colour(const std::vector<uint8_t>& bytes, const std::string&
         // RgbaInputFile knows the first part alone.
         if (colour == Colour::none || (colour == Colour::luminance_chroma && part > 0)) continue;
         check_size(file.header(part), name);
-        return colour == Colour::luminance_chroma ? read_luminance_chroma(bytes, name) : read_part(file, part, colour);
+        RgbImage image =
+            colour == Colour::luminance_chroma ? read_luminance_chroma(bytes, name) : read_part(file, part, colour);
+        const Imf::Compression compression = file.header(part).compression();
+        image.lossy = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+        return image;
     }
     throw Error(LB_ERROR_FORMAT, text(name,
                                       ": no colour: expected channels R, G, B or Y at full resolution, or Y with "
