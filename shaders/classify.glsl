@@ -40,6 +40,16 @@ void around(ivec2 at, int level, out int least, out float variance) {
     least = int(low);
 }
 
+// Whether the pixel may be interpolated: enough parents evenly around it, and none of them (those at the far edges lie outside
+// the blocks around it) needs a finer spacing than theirs.
+bool has_sound_parents(ivec2 at, int level, float pixel_level) {
+    Parents parents = parents_of(at, level, pixel_level);
+    if (!parents.balanced) return false;
+    for (int i = 0; i < parents.count; ++i)
+        if (int(imageLoad(levels, parents.at[i]).r) <= level) return false;
+    return true;
+}
+
 // Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
 // sqrt(area * variance), the area being that which the pixel is interpolated over. Constant variance (section 2.4):
 // N proportional to the variance.
@@ -75,7 +85,7 @@ void main() {
     float variance;
     around(at, level, least, variance);
     bool interpolate = false;
-    if (level < coarsest_level && least > level) interpolate = parents_of(at, level, float(own)).balanced;
+    if (level < coarsest_level && least > level) interpolate = has_sound_parents(at, level, float(own));
     if (interpolate)
         imageStore(decisions, at, uvec4(1));
     else

@@ -14,8 +14,9 @@ int lattice_level(ivec2 at, int coarsest) {
     return bits == 0 ? coarsest : min(findLSB(uint(bits)), coarsest);
 }
 
-// Chords that leave the tangent plane by more than a quarter of their length bridge a fold, not a surface: on a sphere it
-// is the chord of half a radian, over which shading cannot be linear.
+// Chords that leave a tangent plane by more than a quarter of their length bridge a fold, not a surface: on a sphere it
+// is the chord of half a radian, over which shading cannot be linear. Both ends' planes count: at a silhouette the near
+// one contains the line of sight, and with it whatever lies behind.
 const float chord_slope = 0.25;
 // Uneven weights shift the mean away from the pixel; by at most this part of the way to a parent, or the pixel is shaded.
 const float centre_tolerance = 0.25;
@@ -53,7 +54,8 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
         if (any(lessThan(parent, ivec2(0))) || any(greaterThanEqual(parent, size))) continue;
         if (texelFetch(materials, parent, 0).r != material) continue;
         vec3 chord = texelFetch(positions, parent, 0).xyz - position;
-        float slope = dot(chord, normal) * inversesqrt(max(dot(chord, chord), 1e-37)) / chord_slope;
+        float rise = max(abs(dot(chord, normal)), abs(dot(chord, texelFetch(normals, parent, 0).xyz)));
+        float slope = rise * inversesqrt(max(dot(chord, chord), 1e-37)) / chord_slope;
         float g_z = exp(-slope * slope);
         // g_a with M = R^T diag(1, 1 / cos^2) R, narrow along the projected normal, less the part that all directions share;
         // in units of the spacing that the pixel's own bandwidth allows.

@@ -20,9 +20,12 @@ uniform int finer_row;  // where the finer level starts
 uniform int row;        // where this level starts
 
 #if defined(FIRST_LEVEL)
-// Nyquist: spacing <= 1 / (2 b), src/bandwidth/transport.h.
+// Nyquist: spacing <= 1 / (2 b), src/bandwidth/transport.h. A saturated bandwidth may be any number above what pixels can
+// show, and no scale makes it small.
 uint shading_level(float b) {
-    return b > 0.0 ? uint(clamp(floor(log2(0.5 / b)), 0.0, float(coarsest_level))) : uint(coarsest_level);
+    if (b >= 0.5) return 0u;
+    float scaled = bandwidth_scale * b;
+    return scaled > 0.0 ? uint(clamp(floor(log2(0.5 / scaled)), 0.0, float(coarsest_level))) : uint(coarsest_level);
 }
 #endif
 
@@ -31,8 +34,7 @@ void main() {
 #if defined(FIRST_LEVEL)
     if (any(greaterThanEqual(at, finer_size))) return;
     bool covered = texelFetch(materials, at, 0).r != 0u;
-    float b = bandwidth_scale * texelFetch(bandwidth, at, 0).b;
-    imageStore(levels, at, uvec4(covered ? shading_level(b) : 255u));  // nothing seen: no constraint
+    imageStore(levels, at, uvec4(covered ? shading_level(texelFetch(bandwidth, at, 0).b) : 255u));  // nothing seen: no constraint
     imageStore(variances, at, vec4(relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance)));
 #else
     ivec2 size = (finer_size + 1) / 2;
