@@ -14,7 +14,7 @@ import pytest
 
 import lightband
 
-PATIENCE = 60.0  # seconds after which a thread that has not ended counts as stuck
+PATIENCE = 30.0  # seconds after which a thread that has not ended counts as stuck
 
 
 @pytest.fixture
@@ -140,31 +140,39 @@ def test_other_threads_run_while_a_frame_renders(long_frame: lightband.Frame, sc
     assert seen[-1] - seen[0] >= 10
 
 
-def test_threads_that_ask_during_a_render_wait_and_go_on(
-    context: lightband.Context, long_frame: lightband.Frame, scene: lightband.Scene
+@pytest.mark.parametrize(
+    "work",
+    [
+        lambda context, mesh: mesh.stats,
+        lambda context, mesh: context.builtin_mesh("plane", 8),
+        lambda context, mesh: mesh.close(),
+        lambda context, mesh: None,
+    ],
+    ids=["ask", "make", "close", "collect"],
+)
+def test_a_thread_that_needs_the_context_during_a_render_waits(
+    context: lightband.Context,
+    long_frame: lightband.Frame,
+    scene: lightband.Scene,
+    work: Callable[[lightband.Context, lightband.Mesh], object],
 ) -> None:
-    """Were the interpreter held inside the library, asker and callback would wait for each other."""
-    started, answers = threading.Event(), []
-    mesh = context.builtin_mesh("plane", 8)
+    """Were the interpreter held inside the library, this thread and the callback would wait for each other."""
+    started = threading.Event()
+    meshes = [context.builtin_mesh("plane", 8)]
 
-    def ask() -> None:
+    def need() -> None:
         started.wait(PATIENCE)
-        for _ in range(20):
-            answers.append(mesh.stats.triangles)
-            context.lambert(0.5).close()
-            context.builtin_mesh("plane", 8)
-            gc.collect()
-
-    asker = threading.Thread(target=ask, daemon=True)
-    asker.start()
+        work(context, meshes.pop())  # and drops the last reference
 
     def report(_: float) -> None:
         started.set()
         time.sleep(0.002)
 
+    needing = threading.Thread(target=need, daemon=True)
+    needing.start()
     run_to_the_end(lambda: long_frame.render(scene, progress=report))
-    asker.join(PATIENCE)
-    assert not asker.is_alive() and len(answers) == 20
+    needing.join(PATIENCE)
+    assert not needing.is_alive() and not meshes
 
 
 def test_two_contexts_render_at_once(scene: lightband.Scene, context: lightband.Context) -> None:
