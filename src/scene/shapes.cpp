@@ -23,8 +23,9 @@ Vec3 blob(double u, double v) {
 }
 
 Vec3 torus(double u, double v) {
+    // Downwards on the outside, as the sphere: normals point outwards.
     const double a = 2 * pi * u, b = 2 * pi * v, r = 0.34 + 0.14 * std::cos(b);
-    return {r * std::sin(a), 0.14 * std::sin(b), r * std::cos(a)};
+    return {r * std::sin(a), -0.14 * std::sin(b), r * std::cos(a)};
 }
 
 // A trefoil; the tube's cross-section turns in the frame of the curve's tangent and radius.
@@ -37,7 +38,7 @@ Vec3 knot(double u, double v) {
     const Vec3 tangent = glm::normalize(trefoil(t + step) - trefoil(t - step));
     const Vec3 side = glm::normalize(glm::cross(tangent, Vec3(0, 0, 1)));
     const Vec3 other = glm::cross(side, tangent);
-    return centre + 0.085 * (std::cos(2 * pi * v) * side + std::sin(2 * pi * v) * other);
+    return centre + 0.085 * (std::cos(2 * pi * v) * side - std::sin(2 * pi * v) * other);
 }
 
 Triangles grid(const Surface& surface, uint32_t columns, uint32_t rows) {
