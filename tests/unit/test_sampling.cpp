@@ -1,0 +1,359 @@
+// Samplers against their densities, the sequence against its definition, pilots against the albedo.
+#include <functional>
+#include <memory>
+
+#include "brdf_testing.h"
+#include "numeric_testing.h"
+#include "sampling/lobe_sampler.h"
+#include "sampling/pilots.h"
+#include "sampling/sequence.h"
+
+namespace lightband {
+namespace {
+
+using namespace testing;
+
+struct Case {
+    const char* name;
+    Brdf brdf;
+    LobeSampler sampler;
+
+    Case(const char* title, Brdf reflectance) : name(title), brdf(std::move(reflectance)), sampler(brdf) {}
+    bool is_table() const { return std::holds_alternative<BrdfTable>(brdf); }
+};
+
+// Kept at fixed places: each sampler refers to its case's BRDF.
+const std::vector<std::unique_ptr<const Case>>& cases() {
+    static const auto all = [] {
+        std::vector<std::unique_ptr<const Case>> list;
+        list.push_back(std::make_unique<Case>("table", tabulated(Ggx{0.15, Vec3(0.9, 0.6, 0.3)})));
+        list.push_back(std::make_unique<Case>("Lambert", Lambert{Vec3(0.8, 0.5, 0.2)}));
+        list.push_back(std::make_unique<Case>("GGX", Ggx{0.3, Vec3(0.9, 0.6, 0.3)}));
+        return list;
+    }();
+    return all;
+}
+
+constexpr double view_angles[] = {0.2, 0.9, 1.4};
+const double views_tested = std::size(view_angles);
+
+Vec3 outgoing(double theta) {
+    return {std::sin(theta), 0, std::cos(theta)};
+}
+
+// wi of the half vector with theta_half = x^2 pi / 2; an opposing pair where wo lies behind it.
+Vec3 incident(const Vec3& wo, double x, double phi) {
+    const double theta = x * x * pi / 2;
+    const Vec3 h(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+    return 2 * glm::dot(wo, h) * h - wo;
+}
+
+// Solid angle of wi per unit of x and phi, by central differences: truncation step^2 = 1e-10, rounding 1e-16 / step =
+// 1e-11.
+double solid_angle(const Vec3& wo, double x, double phi) {
+    constexpr double step = 1e-5;
+    const Vec3 dx = incident(wo, x + step, phi) - incident(wo, x - step, phi);
+    const Vec3 dphi = incident(wo, x, phi + step) - incident(wo, x, phi - step);
+    return glm::length(glm::cross(dx, dphi)) / (4 * step * step);
+}
+
+// Density of half vectors over (x, phi), from the density of wi.
+double density_at(const LobeSampler& sampler, const Vec3& wo, double x, double phi) {
+    const double theta = x * x * pi / 2;
+    if (wo.x * std::sin(theta) * std::cos(phi) + wo.z * std::cos(theta) <= 0) return 0;
+    return sampler.pdf(incident(wo, x, phi), wo) * solid_angle(wo, x, phi);
+}
+
+// ---- Densities ---------------------------------------------------------------------------------------
+
+// The part of a fine lattice of random numbers whose samples fall below the horizon.
+double part_below_horizon(const LobeSampler& sampler, const Vec3& wo, int side) {
+    int below = 0;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) below += !(sampler.sample(wo, Vec2((x + 0.5) / side, (y + 0.5) / side)).pdf > 0);
+    return double(below) / (double(side) * side);
+}
+
+// Everything that is drawn is either above the horizon, where pdf speaks, or below it. The horizon's curve cuts about 2
+// side of the side^2 cells of the lattice and of the quadrature, each wrong by at most half of itself: 2 / side
+// together. A table's density jumps between its steps, whose borders cut the quadrature's cells in the same way; jumps
+// are of the density's own size, 128 + 32 borders of random sign: another sqrt(160) / side.
+void densities_integrate_to_one(void**) {
+    constexpr int side = 512;
+    for (const auto& one : cases())
+        for (const double theta : view_angles) {
+            const Vec3 wo = outgoing(theta);
+            double above = 0;
+            for (int i = 0; i < side; ++i)
+                for (int j = 0; j < side; ++j)
+                    above += density_at(one->sampler, wo, (i + 0.5) / side, 2 * pi * (j + 0.5) / side);
+            above *= 2 * pi / (double(side) * side);
+            const double below = part_below_horizon(one->sampler, wo, side);
+            check_close(one->name, above + below, 1, (one->is_table() ? 2 + std::sqrt(160.0) : 2.0) / side);
+        }
+}
+
+// The steps of a table tile [0, 1] and, for each, [0, pi]: floats near 1 round by 2^-25 at each end.
+void table_steps_tile_their_domain(void**) {
+    const LobeTable& table = cases()[0]->sampler.table();
+    const auto check_tiles = [](const std::vector<LobeTable::Step>& steps, size_t first, int count, double end) {
+        double at = 0;
+        for (int k = 0; k < count; ++k) {
+            const LobeTable::Step& step = steps[first + size_t(k)];
+            assert_true(step.width > 0);
+            check_close("start of a step", double(step.start), at, 0x1p-22 * end);
+            at = double(step.start) + double(step.width);
+        }
+        check_close("end of the steps", at, end, 0x1p-22 * end);
+    };
+    for (int view = 0; view < LobeTable::views; ++view) {
+        const size_t row = size_t(view) * LobeTable::radial;
+        check_tiles(table.x, row, LobeTable::radial, 1);
+        for (size_t k = row; k < row + LobeTable::radial; ++k)
+            check_tiles(table.phi, k * LobeTable::azimuthal, LobeTable::azimuthal, pi);
+    }
+}
+
+// The half vector's angle is found again from wi to a few 1e-16; a table's density goes with its power -1.5 near the
+// pole.
+void samples_know_their_own_density(void**) {
+    Random random(11);
+    for (const auto& one : cases())
+        for (const double theta : view_angles)
+            for (int i = 0; i < 10000; ++i) {
+                const Vec3 wo = outgoing(theta);
+                const LobeSample sample = one->sampler.sample(wo, Vec2(random.uniform(), random.uniform()));
+                const double pdf = one->sampler.pdf(sample.wi, wo);
+                const double theta_half = std::hypot(sample.half.x, sample.half.y);
+                check_close(one->name, sample.pdf, pdf, pdf * (1e-12 + (one->is_table() ? 1e-15 / theta_half : 0)));
+                if (!(pdf > 0)) continue;
+                check_close("length of wi", glm::length(sample.wi), 1, rounding);
+                check_vector("half vector", sample.half, glm::normalize(sample.wi + wo), 1e-12);
+            }
+}
+
+// ---- Chi-square --------------------------------------------------------------------------------------
+
+// Bins of the half vector over (x, phi), and one for all that falls below the horizon.
+class Histogram {
+public:
+    static constexpr int radial = 20, azimuthal = 12;
+
+    Histogram() : drawn_(size_t(radial * azimuthal) + 1), expected_(drawn_.size()) {}
+
+    void count(const Vec3& wi, const Vec3& wo, bool above) {
+        ++total_;
+        if (!above) {
+            ++drawn_.back();
+            return;
+        }
+        const Vec3 h = glm::normalize(wi + wo);
+        const double x = std::sqrt(std::atan2(std::hypot(h.x, h.y), h.z) / (pi / 2));
+        const double turn = std::atan2(h.y, h.x) / (2 * pi);
+        const int i = std::min(int(x * radial), radial - 1);
+        const int j = std::min(int((turn < 0 ? turn + 1 : turn) * azimuthal), azimuthal - 1);
+        ++drawn_[size_t(i * azimuthal + j)];
+    }
+
+    // Integrates a density over every bin by the midpoint rule.
+    void expect(const std::function<double(double x, double phi)>& density) {
+        constexpr int fine = 48;
+        const double area = 2 * pi / (radial * fine) / (azimuthal * fine);
+        double all = 0;
+        for (int i = 0; i < radial * fine; ++i)
+            for (int j = 0; j < azimuthal * fine; ++j) {
+                const double part =
+                    density((i + 0.5) / (radial * fine), 2 * pi * (j + 0.5) / (azimuthal * fine)) * area;
+                expected_[size_t(i / fine * azimuthal + j / fine)] += part;
+                all += part;
+            }
+        expected_.back() = std::max(0.0, 1 - all);
+    }
+
+    // Bins that expect fewer than ten are thrown together.
+    void check(const char* name, double significance) const {
+        double sum = 0, rare_expected = 0, rare_drawn = 0;
+        int bins = 0;
+        const auto add = [&](double drawn, double expected) {
+            sum += (drawn - expected) * (drawn - expected) / expected;
+            ++bins;
+        };
+        for (size_t i = 0; i < drawn_.size(); ++i) {
+            const double expected = expected_[i] * total_;
+            if (expected >= 10) {
+                add(drawn_[i], expected);
+            } else {
+                rare_expected += expected;
+                rare_drawn += drawn_[i];
+            }
+        }
+        if (rare_expected >= 10)
+            add(rare_drawn, rare_expected);
+        else
+            check_at_most("samples where almost none are expected", rare_drawn, 40);
+        check_at_most(name, sum, chi_square_quantile(significance, bins - 1));
+    }
+
+private:
+    std::vector<double> drawn_, expected_;
+    double total_ = 0;
+};
+
+// One test of significance 1e-4, shared among its cases (Bonferroni). The midpoint rule errs by about one part in 48
+// where a step's border crosses a bin, 0.5 % on average: at 100 samples a bin that adds 0.0025 to each bin's 1.
+void drawn_directions_follow_the_density(void**) {
+    constexpr int samples = 30000;
+    const double significance = 1e-4 / (double(cases().size()) * views_tested);
+    Random random(12);
+    for (const auto& one : cases())
+        for (const double theta : view_angles) {
+            const Vec3 wo = outgoing(theta);
+            Histogram histogram;
+            for (int i = 0; i < samples; ++i) {
+                const LobeSample sample = one->sampler.sample(wo, Vec2(random.uniform(), random.uniform()));
+                histogram.count(sample.wi, wo, sample.pdf > 0);
+            }
+            histogram.expect([&](double x, double phi) { return density_at(one->sampler, wo, x, phi); });
+            histogram.check(one->name, significance);
+        }
+}
+
+// The mean of f cos(theta_i) / pdf is the albedo, within four standard errors of its own.
+void samples_reflect_the_albedo(void**) {
+    constexpr int samples = 30000;
+    Random random(13);
+    for (const auto& one : cases())
+        for (const double theta : view_angles) {
+            const Vec3 wo = outgoing(theta);
+            double sum = 0, squares = 0;
+            for (int i = 0; i < samples; ++i) {
+                const LobeSample sample = one->sampler.sample(wo, Vec2(random.uniform(), random.uniform()));
+                if (!(sample.pdf > 0)) continue;
+                const double weight = luminance(evaluate(one->brdf, sample.wi, wo)) * sample.wi.z / sample.pdf;
+                sum += weight;
+                squares += weight * weight;
+            }
+            const double mean = sum / samples, variance = std::max(0.0, squares / samples - mean * mean);
+            // Lambert's weights are all alike; what is left is the quadrature's error, 1e-5 of a smooth lobe.
+            check_close(one->name, mean, luminance(directional_albedo(one->brdf, theta)),
+                        4 * std::sqrt(variance / samples) + 1e-5);
+        }
+}
+
+// A table's pdf bounds the weight: no direction that reflects has density 0, also where the table does not know it.
+void weights_stay_bounded(void**) {
+    BrdfTable spike;
+    spike.rgb.assign(BrdfTable::cell_count * 3, 0.0f);
+    std::fill_n(spike.rgb.begin() + std::ptrdiff_t(BrdfTable::cell(40, 30, 20) * 3), 3, 1.0f);
+    for (const Brdf& brdf : {Brdf(spike), Brdf(BrdfTable{std::vector<float>(BrdfTable::cell_count * 3, -1.0f)})}) {
+        const LobeSampler sampler(brdf);
+        Random random(14);
+        for (int i = 0; i < 10000; ++i) {
+            const Vec3 wo = outgoing(random.uniform(0, 1.5)), wi = random.hemisphere();
+            const double pdf = sampler.pdf(wi, wo);
+            assert_true(pdf > 0 && std::isfinite(pdf));
+        }
+    }
+}
+
+// ---- The sequence ------------------------------------------------------------------------------------
+
+void aligned_blocks_stratify_every_elementary_interval(void**) {
+    for (uint32_t k = 0; k <= 8; ++k)
+        for (const uint32_t block : {0u, 1u, 2u, 3u, 7u, 100u, (1u << 20) - 1})
+            for (uint32_t columns = 0; columns <= k; ++columns) {
+                std::vector<int> points(size_t(1) << k);
+                for (uint32_t i = 0; i < 1u << k; ++i) {
+                    const Vec2 u = to_unit(sequence_point((block << k) + i));
+                    assert_true(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
+                    const uint32_t x = uint32_t(std::ldexp(u.x, int(columns)));
+                    const uint32_t y = uint32_t(std::ldexp(u.y, int(k - columns)));
+                    ++points[(size_t(y) << columns) + x];
+                }
+                for (int count : points) assert_int_equal(count, 1);
+            }
+}
+
+// ---- Pilots ------------------------------------------------------------------------------------------
+
+double weight_at(const Case& one, const Vec3& wo, const Vec2& u) {
+    const LobeSample sample = one.sampler.sample(wo, u);
+    return sample.pdf > 0 ? luminance(evaluate(one.brdf, sample.wi, wo)) * sample.wi.z / sample.pdf : 0;
+}
+
+// 256 pilots put one into each of 16 x 16 strata. Were each at random in its own, their mean would have the variance
+// sum(variance within a stratum) / 256^2; the sequence stratifies finer than that. Five standard deviations.
+void pilots_carry_the_albedo(void**) {
+    constexpr int strata = 16, fine = 16;
+    constexpr uint32_t count = strata * strata;
+    LobeBandwidth constant;
+    constant.values.assign(size_t(LobeBandwidth::views) * LobeBandwidth::side * LobeBandwidth::side, 3.0f);
+    for (const auto& one : cases()) {
+        const std::vector<Pilot> all = pilots(one->brdf, one->sampler, constant, count);
+        assert_int_equal(all.size(), LobeTable::views * count);
+        for (const int view : {0, 20, 40, 60}) {
+            const double theta = (view + 0.5) / LobeTable::views * pi / 2;
+            double variance = 0;
+            for (int stratum = 0; stratum < strata * strata; ++stratum) {
+                double sum = 0, squares = 0;
+                for (int i = 0; i < fine * fine; ++i) {
+                    const Vec2 corner(stratum % strata, stratum / strata), inside(i % fine, i / fine);
+                    const double w =
+                        weight_at(*one, outgoing(theta), (corner + (inside + 0.5) / double(fine)) / double(strata));
+                    sum += w;
+                    squares += w * w;
+                }
+                variance += squares / (fine * fine) - std::pow(sum / (fine * fine), 2);
+            }
+            double sum = 0;
+            for (uint32_t i = 0; i < count; ++i) sum += double(all[size_t(view) * count + i].weight);
+            // Weights are floats: 2^-24 of 1 each.
+            check_close(one->name, sum / count, luminance(directional_albedo(one->brdf, theta)),
+                        5 * std::sqrt(std::max(0.0, variance)) / count + 1e-5);
+        }
+    }
+}
+
+void pilots_stand_for_their_solid_angles(void**) {
+    constexpr uint32_t count = 256;
+    LobeBandwidth constant;
+    constant.values.assign(size_t(LobeBandwidth::views) * LobeBandwidth::side * LobeBandwidth::side, 3.0f);
+    for (const auto& one : cases()) {
+        const std::vector<Pilot> all = pilots(one->brdf, one->sampler, constant, count);
+        for (size_t i = 0; i < all.size(); ++i) {
+            const Pilot& pilot = all[i];
+            check_at_most("footprint", double(pilot.footprint), std::log2(2 * pi) + 1e-6);
+            if (pilot.weight == 0) continue;
+            const Vec3 wo = outgoing((double(i / count) + 0.5) / LobeTable::views * pi / 2);
+            const Vec3 h(pilot.half[0], pilot.half[1], pilot.half[2]);
+            const Vec3 wi = 2 * glm::dot(wo, h) * h - wo;
+            const double pdf = one->sampler.pdf(wi, wo);
+            const double footprint = std::min(std::log2(1 / (count * pdf)), std::log2(2 * pi));
+            // The half vector is a float: its angle, at least 0.01, rounds by 6e-8; the density of the narrowest step
+            // by less than a thousand times that.
+            check_close("footprint", double(pilot.footprint), footprint, 1e-4);
+            check_close("lobe bandwidth", double(pilot.lobe_bandwidth), 3, 0);
+            const double f = luminance(evaluate(one->brdf, wi, wo));
+            check_close("square", double(pilot.square), f * f / (2 * pi * pdf), 1e-3 * f * f / (2 * pi * pdf));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lightband
+
+int main() {
+    using namespace lightband;
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(densities_integrate_to_one),
+        cmocka_unit_test(table_steps_tile_their_domain),
+        cmocka_unit_test(samples_know_their_own_density),
+        cmocka_unit_test(drawn_directions_follow_the_density),
+        cmocka_unit_test(samples_reflect_the_albedo),
+        cmocka_unit_test(weights_stay_bounded),
+        cmocka_unit_test(aligned_blocks_stratify_every_elementary_interval),
+        cmocka_unit_test(pilots_carry_the_albedo),
+        cmocka_unit_test(pilots_stand_for_their_solid_angles),
+    };
+    return cmocka_run_group_tests_name("sampling", tests, nullptr, nullptr);
+}
