@@ -217,6 +217,7 @@ REFUSED: list[tuple[str, type[Exception], str]] = [
     ("rendered.save('picture.exr', fields=['colour'])", lightband.InvalidArgument, "colour"),
     ("rendered.save('picture.exr', fields=[])", lightband.InvalidArgument, "fields"),
     ("rendered.save('picture.exr', fields=[3])", TypeError, "str"),
+    ("rendered.save('picture.png', fields='depth')", lightband.InvalidArgument, "depth"),
     ("rendered.save('picture.png', exposure=float('nan'))", lightband.InvalidArgument, "exposure"),
     ("lightband.Context(device='abacus')", lightband.InvalidArgument, "abacus"),
     ("lightband.Context(device=2)", TypeError, "device"),

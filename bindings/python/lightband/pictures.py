@@ -552,7 +552,7 @@ def draw_scatter(
             gridsize=50,
             bins="log",
             mincnt=1,
-            cmap="Blues",
+            cmap=ListedColormap(matplotlib.colormaps["Blues"](np.linspace(0.3, 1, 256))),  # one pixel shows too
             linewidths=0.1,
         )
     axes.plot((low, high), (low, high), color="black", linewidth=0.8)
