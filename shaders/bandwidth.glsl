@@ -16,6 +16,7 @@ layout(binding = 1, rg32f) writeonly uniform image2D prediction;    // variance 
 
 uniform int pilot_count;
 uniform float radians_per_pixel;
+uniform float map_density;      // the map's sampling density is this times its radiance, 1/steradian
 uniform float footprint_level;  // log2 of the moments' side, squared, over 4 pi: turns steradians into texels
 
 const float nyquist = 0.5;      // cycles per pixel: what the finest level can show
@@ -100,7 +101,13 @@ void main() {
         vec2 nu = reflected_bandwidth(light_bandwidth, b.y, max(curvature, 0.0), cos_outgoing, distance_to_eye);
         weighted += lambda * vec2(nu.x, min(nu.y, frequency_limit));
         weights += lambda;
+        // Mean square of f cos L / density over the footprint. Where the map is drawn too, its density there follows the
+        // radiance; that of the light that matters is its mean square over its mean.
+#if defined(SAMPLER_COMBINED)
+        second += light.y * a.w * a.w * 2.0 * b.w / (b.w + map_density * light.y / light.x);
+#else
         second += light.y * a.w * a.w;
+#endif
         printed += (min(light_bandwidth, frequency_limit) + min(b.y, frequency_limit)) * b.x * light.y;
     }
     // All weights zero: nothing arrives, and a black pixel has no bandwidth.

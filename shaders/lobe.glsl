@@ -7,6 +7,7 @@
 layout(binding = 2) uniform samplerBuffer brdf_cells;     // RGB / table_scale, and 1 where measured
 layout(binding = 3) uniform samplerBuffer lobe_x;         // start and width of each step of x
 layout(binding = 4) uniform samplerBuffer lobe_phi;       // start and width of each step of phi
+layout(binding = 9) uniform samplerBuffer lobe_albedo;    // what the density of each view is proportional to
 uniform float table_scale;
 
 const int half_cells = 90, diff_cells = 90, phi_cells = 180;
@@ -39,9 +40,27 @@ vec3 table_value(float x, float theta_diff, float phi_diff) {
 
 int lobe_view(float cos_outgoing) { return min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1); }
 
-// weight = f cos(theta_i) / pdf; false: below the horizon, carries nothing.
-bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
+// f cos(theta_i) for a half vector of known x and angle to wo.
+vec3 lobe_value(vec3 wi, vec3 h, float x, float oh) {
+    float phi_y = wi.y * h.x - wi.x * h.y, phi_x = h.z * oh - wi.z;
+    float phi_diff = phi_x == 0.0 && phi_y == 0.0 ? 0.0 : atan(phi_y, phi_x);
+    if (phi_diff < 0.0) phi_diff += pi;
+    return table_value(x, acos_near(min(oh, 1.0), 1.0 - oh), phi_diff) * (table_scale * wi.z);
+}
+
+// The sampler's density over (x, phi) as its target defines it: f cos / albedo and an even part. The drawn density follows it in
+// steps; for weights that must agree between two samplers, this one serves.
+float target_density(vec3 value, int view, float solid_angle) {
+    float albedo = texelFetch(lobe_albedo, view).r;
+    float even = 1.0 / (2.0 * pi);
+    return albedo > 0.0 ? (1.0 - LOBE_DEFENSIVE) * dot(value, vec3(1.0 / 3.0)) * solid_angle / albedo + LOBE_DEFENSIVE * even
+                        : even;
+}
+
+// weight = f cos(theta_i) / pdf; density: see evaluate_lobe. False: below the horizon, carries nothing.
+bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
     weight = vec3(0);
+    density = vec2(1, 0);
     float scaled_x = u.x * LOBE_RADIAL;
     int k = int(scaled_x);
     vec2 xs = texelFetch(lobe_x, view * LOBE_RADIAL + k).xy;
@@ -59,14 +78,24 @@ bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
     wi = 2.0 * oh * h - wo;
     if (oh <= 0.0 || wi.z <= 0.0) return false;
 
-    float phi_y = wi.y * h.x - wi.x * h.y, phi_x = cos_theta * oh - wi.z;
-    float phi_diff = phi_x == 0.0 && phi_y == 0.0 ? 0.0 : atan(phi_y, phi_x);
-    if (phi_diff < 0.0) phi_diff += pi;
-    vec3 f = table_value(x, acos_near(min(oh, 1.0), 1.0 - oh), phi_diff);
+    vec3 value = lobe_value(wi, h, x, oh);
     float solid_angle = 4.0 * oh * sin_theta * pi * x;                              // d(wi) / d(x, phi)
     float area = xs.y * ps.y * float(2 * LOBE_RADIAL * LOBE_AZIMUTHAL);             // 1 / density over (x, phi)
-    weight = f * (table_scale * wi.z * solid_angle * area);
+    weight = value * (solid_angle * area);
+    density = vec2(target_density(value, view, solid_angle), solid_angle);
     return true;
+}
+
+// f cos(theta_i) for a given wi above the horizon. density: the sampler's density there as a fraction, so that the mirror
+// direction of a table, where (x, phi) shrinks to a point, is no division by zero: density.x / density.y per steradian.
+vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
+    vec3 h = normalize(wi + wo);
+    float squared = dot(h.xy, h.xy), oh = dot(wo, h);
+    float x = sqrt(acos_near(h.z, squared / (1.0 + h.z)) * (2.0 / pi));
+    vec3 value = lobe_value(wi, h, x, oh);
+    float solid_angle = 4.0 * oh * sqrt(squared) * pi * x;
+    density = vec2(target_density(value, view, solid_angle), solid_angle);
+    return value;
 }
 
 #elif defined(LOBE_LAMBERT)
@@ -75,11 +104,17 @@ uniform vec3 albedo;
 
 int lobe_view(float cos_outgoing) { return 0; }
 
-bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
+bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
     float r = sqrt(u.x), phi = 2.0 * pi * u.y;
     wi = vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
     weight = albedo;
+    density = vec2(wi.z, pi);
     return true;
+}
+
+vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
+    density = vec2(wi.z, pi);
+    return albedo * (wi.z / pi);
 }
 
 #else  // LOBE_GGX
@@ -89,8 +124,25 @@ uniform vec3 f0;
 
 int lobe_view(float cos_outgoing) { return 0; }
 
+vec3 fresnel(float oh) {
+    float c = 1.0 - oh, c2 = c * c;
+    return f0 + (1.0 - f0) * (c2 * c2 * c);
+}
+
+// sqrt(a^2 + (1 - a^2) cos^2) of Smith's shadowing.
+float smith(float cosine) {
+    float a2 = alpha * alpha;
+    return sqrt(a2 + (1.0 - a2) * cosine * cosine);
+}
+
+// D G1(wo) / (4 cos_o), per steradian, as a fraction: a mirror's peak overflows neither part.
+vec2 visible_density(vec3 h, vec3 wo) {
+    float t = dot(h.xy, h.xy) / alpha + alpha * h.z * h.z;
+    return vec2(0.5 / (wo.z + smith(wo.z)), pi * t * t);
+}
+
 // Visible normals (Heitz 2018); f cos(theta_i) / pdf = F G2 / G1.
-bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
+bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
     vec3 v = normalize(vec3(alpha * wo.x, 0.0, wo.z));
     float r = sqrt(u.x), azimuth = 2.0 * pi * u.y;
     float t1 = r * cos(azimuth), s = 0.5 * (1.0 + v.z);
@@ -101,12 +153,18 @@ bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight) {
     float oh = dot(wo, h);
     wi = 2.0 * oh * h - wo;
     weight = vec3(0);
+    density = vec2(1, 0);
     if (wi.z <= 0.0) return false;
-    float a2 = alpha * alpha;
-    float si = sqrt(a2 + (1.0 - a2) * wi.z * wi.z), so = sqrt(a2 + (1.0 - a2) * wo.z * wo.z);
-    float c = 1.0 - oh, c2 = c * c;
-    weight = (f0 + (1.0 - f0) * (c2 * c2 * c)) * (wi.z * (wo.z + so) / (wo.z * si + wi.z * so));
+    weight = fresnel(oh) * (wi.z * (wo.z + smith(wo.z)) / (wo.z * smith(wi.z) + wi.z * smith(wo.z)));
+    density = visible_density(h, wo);
     return true;
+}
+
+vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
+    vec3 h = normalize(wi + wo);
+    density = visible_density(h, wo);
+    // D / density.x * density.y = 1: D = 1 / (pi t^2) = 1 / density.y.
+    return fresnel(dot(wo, h)) * (wi.z * 0.5 / (density.y * (wo.z * smith(wi.z) + wi.z * smith(wo.z))));
 }
 
 #endif

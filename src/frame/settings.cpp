@@ -28,7 +28,7 @@ lb_setting_info choice_of(const char* name, const char* choices, const char* sta
 // The order is that of the enumerations in settings.h and elsewhere; Place names it.
 enum Place {
     place_method, place_samples, place_max_samples, place_bandwidth_scale, place_coarsest_level, place_pilots,
-    place_transport, place_band_rule, place_variance, place_allocation, place_sequence, place_brdf_lookup,
+    place_transport, place_band_rule, place_variance, place_allocation, place_sampler, place_sequence, place_brdf_lookup,
     place_environment_lookup, place_background, place_seed, place_accumulate, place_count
 };
 
@@ -56,6 +56,9 @@ const lb_setting_info table[place_count] = {
     choice_of("allocation", "least_error|constant_variance", "least_error",
               "How samples are shared. least_error: in proportion to the square root of relative variance times the area a pixel "
               "is interpolated over. constant_variance: in proportion to relative variance (section 2.4)."),
+    choice_of("sampler", "combined|brdf", "combined",
+              "Where an adaptive frame's samples come from. combined: half from the BRDF, half from the map, by the balance "
+              "heuristic (Veach 1997). brdf: the papers'. A reference always samples the BRDF."),
     choice_of("sequence", "sobol|random", "sobol",
               "Points of an adaptive frame: a scrambled (0,2)-sequence, or random numbers. A reference is always random."),
     choice_of("brdf_lookup", "nearest|linear", "nearest", "Lookup in a tabulated BRDF."),
@@ -156,6 +159,9 @@ Allocation Settings::allocation() const {
 }
 Sequence Settings::sequence() const {
     return values_[place_sequence] == 0 && method() == Method::adaptive ? Sequence::sobol : Sequence::random;
+}
+Sampler Settings::sampler() const {
+    return values_[place_sampler] == 0 && method() == Method::adaptive ? Sampler::combined : Sampler::brdf;
 }
 Lookup Settings::brdf_lookup() const { return values_[place_brdf_lookup] == 0 ? Lookup::nearest : Lookup::linear; }
 Lookup Settings::environment_lookup() const {

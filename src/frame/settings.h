@@ -16,6 +16,7 @@ enum class Method { adaptive, reference };
 enum class Variance { moments, printed };
 enum class Allocation { least_error, constant_variance };
 enum class Sequence { sobol, random };
+enum class Sampler { combined, brdf };
 
 class Settings {
 public:
@@ -36,6 +37,7 @@ public:
     Variance variance() const;
     Allocation allocation() const;
     Sequence sequence() const;
+    Sampler sampler() const;
     Lookup brdf_lookup() const;
     Lookup environment_lookup() const;
     uint32_t samples() const;

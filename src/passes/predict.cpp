@@ -61,7 +61,9 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
     const gl::Program& program = device.compute(
         "bandwidth", text("LOBE_VIEWS ", LobeTable::views,
                           settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
-                          settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : ""));
+                          settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
+                          settings.sampler() == Sampler::combined ? "\nSAMPLER_COMBINED" : ""));
+    program.set("map_density", float(1 / scene.light->sampler().total()));
     program.set("pilot_count", int32_t(settings.pilots()));
     program.set("radians_per_pixel", float(scene.camera->radians_per_pixel(height)));
     program.set("footprint_level", float(std::log2(double(light.side) * light.side / (4 * pi))));

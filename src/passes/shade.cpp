@@ -15,6 +15,7 @@ constexpr uint64_t dispatch_samples = 1u << 23;
 std::string definitions(const Material& material, const Settings& settings) {
     return material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples) +
            (settings.sequence() == Sequence::random ? "\nSEQUENCE_RANDOM" : "") +
+           (settings.sampler() == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u") : "") +
            (settings.environment_lookup() == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : "");
 }
 
@@ -49,6 +50,8 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         bind_texture(gl, 6, gbuffer.normal);
         bind_texture(gl, 7, target.decision);
         bind_texture(gl, 8, sequence.texture);
+        if (settings.sampler() == Sampler::combined)
+            bind_texture(gl, 10, scene.light->points(settings.environment_lookup(), seed).texture);
         bind_image(gl, 0, target.radiance, GL_RGBA32F);
         bind_image(gl, 1, target.sample_count, GL_R32UI);
         for (uint32_t round = 0; round < part.longer.size(); ++round) {

@@ -9,9 +9,6 @@ namespace {
 // The grid on which a lobe's density is computed before it is inverted.
 constexpr int grid_x = 2 * int(BrdfTable::theta_half_cells);
 constexpr int grid_phi = 64;
-// The part of all samples that is spread evenly over (x, phi), so that no direction has density 0 and no weight is
-// unbounded (Hesterberg 1995, defensive mixture).
-constexpr double defensive_part = 1.0 / 16;
 
 double mean(const Vec3& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
 
@@ -42,7 +39,12 @@ void invert(const std::vector<double>& mass, double end, int steps, LobeTable::S
     }
 }
 
-std::vector<double> lobe_grid(const Brdf& brdf, const Vec3& wo) {
+struct LobeGrid {
+    std::vector<double> mass;  // grid_x * grid_phi, defensive part included
+    double albedo;
+};
+
+LobeGrid lobe_grid(const Brdf& brdf, const Vec3& wo) {
     std::vector<double> grid(size_t(grid_x) * grid_phi);
     double total = 0;
     for (int i = 0; i < grid_x; ++i)
@@ -58,9 +60,10 @@ std::vector<double> lobe_grid(const Brdf& brdf, const Vec3& wo) {
             total += value;
         }
     // A black lobe is sampled evenly: its samples carry nothing, but they must exist.
-    const double even = total > 0 ? total * defensive_part / (1 - defensive_part) : 1.0;
+    constexpr double defensive = LobeTable::defensive_part;
+    const double even = total > 0 ? total * defensive / (1 - defensive) : 1.0;
     for (double& value : grid) value += even / double(grid.size());
-    return grid;
+    return {std::move(grid), total * (1.0 / grid_x) * (2 * pi / grid_phi)};
 }
 
 LobeSample sample_table(const LobeTable& table, const Vec3& wo, const Vec2& u) {
@@ -141,7 +144,8 @@ LobeTable lobe_table(const Brdf& brdf) {
     table.phi.resize(table.x.size() * LobeTable::azimuthal);
     for (int view = 0; view < LobeTable::views; ++view) {
         const double theta = (view + 0.5) / LobeTable::views * pi / 2;
-        const std::vector<double> grid = lobe_grid(brdf, Vec3(std::sin(theta), 0, std::cos(theta)));
+        const auto [grid, albedo] = lobe_grid(brdf, Vec3(std::sin(theta), 0, std::cos(theta)));
+        table.albedo.push_back(float(albedo));
         std::vector<double> rows(grid_x);
         for (int i = 0; i < grid_x; ++i)
             for (int j = 0; j < grid_phi; ++j) rows[size_t(i)] += grid[size_t(i) * grid_phi + size_t(j)];

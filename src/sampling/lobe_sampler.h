@@ -22,6 +22,12 @@ struct LobeTable {
     };
     std::vector<Step> x;    // views * radial
     std::vector<Step> phi;  // views * radial * azimuthal
+    // Per view: the integral of mean(f) cos(theta_i) that the density is proportional to, but for its defensive part.
+    std::vector<float> albedo;
+
+    // The part of all samples that is spread evenly over (x, phi), so that no direction has density 0 and no weight is
+    // unbounded (Hesterberg 1995, defensive mixture).
+    static constexpr double defensive_part = 1.0 / 16;
 
     static int view_of(double cos_outgoing);
 };

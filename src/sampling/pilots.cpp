@@ -23,6 +23,7 @@ std::vector<Pilot> pilots(const Brdf& brdf, const LobeSampler& sampler, const Lo
             pilot = {{float(sample.half.x), float(sample.half.y), float(sample.half.z)}, 0, 0, 0, float(widest), 0};
             if (sample.pdf <= 0) continue;
             const double f = luminance(evaluate(brdf, sample.wi, wo));
+            pilot.pdf = float(sample.pdf);
             pilot.weight = float(f * sample.wi.z / sample.pdf);
             pilot.square = float(f * f / (2 * pi * sample.pdf));
             pilot.lobe_bandwidth = float(bandwidth.at(sample.wi, wo));

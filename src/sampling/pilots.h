@@ -17,7 +17,7 @@ struct Pilot {
     float square;          // f^2 / (2 pi g), of f's luminance: chi_i^2 / L_i^2 averaged over uniform directions
     float lobe_bandwidth;  // rho at this pair of directions, cycles/radian
     float footprint;       // log2 of the solid angle that the pilot stands for, 1 / (n_b g), in steradians
-    float padding;
+    float pdf;             // g, per steradian
 };
 
 // LobeTable::views * count pilots, view by view.

@@ -1,15 +1,24 @@
 #include "scene/light.h"
 
+#include <algorithm>
+
 #include "passes/environment_bandwidth.h"
 
 namespace lightband {
 
-Light::Light(gl::DevicePtr device, RgbImage map) : device_(std::move(device)), map_(std::move(map)) {
+Light::Light(gl::DevicePtr device, RgbImage map) : device_(std::move(device)), map_(std::move(map)), sampler_(map_) {
     const uint32_t limit = uint32_t(device_->max_texture_size());
     if (map_.width > limit || map_.height > limit)
         throw Error(LB_ERROR_LIMIT, text("a map of ", map_.width, " x ", map_.height, " exceeds the device's textures of ", limit));
     texture_ = gl::Texture::image(device_->gl(), GL_RGBA32F, map_.width, map_.height);
-    texture_.upload(map_.width, map_.height, GL_RGB, GL_FLOAT, map_.rgb.data());
+    std::vector<float> texels(size_t(map_.width) * map_.height * 4);
+    for (uint32_t y = 0; y < map_.height; ++y)
+        for (uint32_t x = 0; x < map_.width; ++x) {
+            float* texel = &texels[(size_t(y) * map_.width + x) * 4];
+            std::copy_n(map_.texel(x, y), 3, texel);
+            texel[3] = float(sampler_.texel_pdf(x, y));
+        }
+    texture_.upload(map_.width, map_.height, GL_RGBA, GL_FLOAT, texels.data());
     texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     texture_.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     texture_.parameter(GL_TEXTURE_WRAP_S, GL_REPEAT);
@@ -23,8 +32,18 @@ const EnvironmentBandwidth& Light::bandwidth(BandRule rule) const {
     return found->second;
 }
 
+const MapPoints& Light::points(Lookup lookup, uint32_t seed) const {
+    if (!points_.buffer || points_key_ != std::pair(lookup, seed)) {
+        const std::vector<MapPoint> points = draw_map_points(map_, sampler_, lookup, seed, MapPoints::count);
+        points_.buffer = gl::Buffer(device_->gl(), points.size() * sizeof(MapPoint), points.data());
+        points_.texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, points_.buffer);
+        points_key_ = {lookup, seed};
+    }
+    return points_;
+}
+
 size_t Light::device_bytes() const {
-    size_t bytes = texture_.bytes();
+    size_t bytes = texture_.bytes() + points_.buffer.bytes();
     for (const auto& [rule, bandwidth] : bandwidths_) bytes += bandwidth.moments.bytes() + bandwidth.bandwidth.bytes();
     return bytes;
 }

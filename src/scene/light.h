@@ -5,6 +5,7 @@
 
 #include "bandwidth/wavelet.h"
 #include "gl/objects.h"
+#include "sampling/map_sampler.h"
 #include "scene/environment.h"
 
 namespace lightband {
@@ -16,6 +17,13 @@ struct EnvironmentBandwidth {
     gl::Texture bandwidth;  // nu_a, cycles/radian
 };
 
+// Directions drawn from a map beforehand; a pixel takes an aligned block of them.
+struct MapPoints {
+    static constexpr uint32_t count = 1u << 16;
+    gl::Buffer buffer;
+    gl::Texture texture;  // two vec4 a point: sampling/map_sampler.h, MapPoint
+};
+
 class Light {
 public:
     // The map has been checked (check_radiance).
@@ -24,14 +32,20 @@ public:
     const gl::DevicePtr& device() const { return device_; }
     const RgbImage& map() const { return map_; }
     const gl::Texture& texture() const { return texture_; }
+    const MapSampler& sampler() const { return sampler_; }
     const EnvironmentBandwidth& bandwidth(BandRule rule) const;
+    // Drawn anew when lookup or seed change.
+    const MapPoints& points(Lookup lookup, uint32_t seed) const;
     size_t device_bytes() const;
 
 private:
     gl::DevicePtr device_;
     const RgbImage map_;
-    gl::Texture texture_;
+    const MapSampler sampler_;
+    gl::Texture texture_;  // RGB radiance; alpha: the sampler's density, per steradian
     mutable std::map<BandRule, EnvironmentBandwidth> bandwidths_;
+    mutable MapPoints points_;
+    mutable std::pair<Lookup, uint32_t> points_key_;
 };
 
 }  // namespace lightband

@@ -36,6 +36,8 @@ void Material::upload_table(const BrdfTable& table) {
     lobe_x_texture_ = gl::Texture::of_buffer(gl, GL_RG32F, lobe_x_);
     lobe_phi_ = gl::Buffer(gl, lobes.phi.size() * sizeof(LobeTable::Step), lobes.phi.data());
     lobe_phi_texture_ = gl::Texture::of_buffer(gl, GL_RG32F, lobe_phi_);
+    lobe_albedo_ = gl::Buffer(gl, lobes.albedo.size() * sizeof(float), lobes.albedo.data());
+    lobe_albedo_texture_ = gl::Texture::of_buffer(gl, GL_R32F, lobe_albedo_);
     device_->check("uploading a BRDF");
 }
 
@@ -43,7 +45,7 @@ std::string Material::definitions(Lookup lookup) const {
     if (std::holds_alternative<Lambert>(brdf_)) return "LOBE_LAMBERT";
     if (std::holds_alternative<Ggx>(brdf_)) return "LOBE_GGX";
     return text("LOBE_TABLE\nLOBE_VIEWS ", LobeTable::views, "\nLOBE_RADIAL ", LobeTable::radial, "\nLOBE_AZIMUTHAL ",
-                LobeTable::azimuthal, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
+                LobeTable::azimuthal, "\nLOBE_DEFENSIVE ", LobeTable::defensive_part, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
 }
 
 void Material::bind(const gl::Program& program) const {
@@ -57,6 +59,7 @@ void Material::bind(const gl::Program& program) const {
         device_->gl().BindTextureUnit(2, cells_texture_.name());
         device_->gl().BindTextureUnit(3, lobe_x_texture_.name());
         device_->gl().BindTextureUnit(4, lobe_phi_texture_.name());
+        device_->gl().BindTextureUnit(9, lobe_albedo_texture_.name());
     }
 }
 

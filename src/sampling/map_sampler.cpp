@@ -1,0 +1,105 @@
+#include "sampling/map_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sampling/sequence.h"
+#include "scene/environment.h"
+
+namespace lightband {
+namespace {
+
+double mean(const float* rgb) { return (double(rgb[0]) + rgb[1] + rgb[2]) / 3; }
+
+// Mean over a texel of bilinear interpolation between texel centres: weights 1/8, 6/8, 1/8 along each axis.
+double smoothed(const RgbImage& map, uint32_t x, uint32_t y) {
+    const uint32_t left = (x + map.width - 1) % map.width, right = (x + 1) % map.width;
+    const auto row = [&](uint32_t at) {
+        return (mean(map.texel(left, at)) + 6 * mean(map.texel(x, at)) + mean(map.texel(right, at))) / 8;
+    };
+    return (row(y > 0 ? y - 1 : 0) + 6 * row(y) + row(std::min(y + 1, map.height - 1))) / 8;
+}
+
+// The interval of ascending running sums that holds target: its index and the part of it that lies below target.
+std::pair<uint32_t, double> invert(const double* sums, uint32_t count, double target) {
+    const auto index = uint32_t(std::min<ptrdiff_t>(std::upper_bound(sums, sums + count, target) - sums, count - 1));
+    const double before = index > 0 ? sums[index - 1] : 0, own = sums[index] - before;
+    return {index, own > 0 ? std::clamp((target - before) / own, 0.0, 1.0) : 0.5};
+}
+
+}  // namespace
+
+MapSampler::MapSampler(const RgbImage& map) : width_(map.width), height_(map.height) {
+    texels_.resize(size_t(width_) * height_);
+    rows_.resize(height_);
+    const bool black = std::all_of(map.rgb.begin(), map.rgb.end(), [](float value) { return value == 0; });
+    double total = 0;
+    for (uint32_t y = 0; y < height_; ++y) {
+        double row = 0;
+        for (uint32_t x = 0; x < width_; ++x) {
+            row += (black ? 1.0 : smoothed(map, x, y)) * solid_angle(y);
+            texels_[size_t(y) * width_ + x] = row;
+        }
+        rows_[y] = total += row;
+    }
+}
+
+double MapSampler::solid_angle(uint32_t row) const {
+    const double top = std::cos(pi * row / height_), bottom = std::cos(pi * (row + 1.0) / height_);
+    return 2 * pi / width_ * (top - bottom);
+}
+
+MapSampler::Sample MapSampler::sample(const Vec2& u) const {
+    const auto [y, v] = invert(rows_.data(), height_, u.x * rows_.back());
+    const double* row = &texels_[size_t(y) * width_];
+    const auto [x, across] = invert(row, width_, u.y * row[width_ - 1]);
+    // Even in solid angle: in longitude, and in the sine of latitude.
+    const double top = std::cos(pi * y / height_), bottom = std::cos(pi * (y + 1.0) / height_);
+    const double sine = top + v * (bottom - top), cosine = std::sqrt(std::max(0.0, 1 - sine * sine));
+    const double longitude = (0.5 - (x + across) / width_) * 2 * pi;
+    return {Vec3(cosine * std::sin(longitude), sine, cosine * std::cos(longitude)), texel_pdf(x, y)};
+}
+
+double MapSampler::texel_pdf(uint32_t x, uint32_t y) const {
+    const double* row = &texels_[size_t(y) * width_];
+    return (row[x] - (x > 0 ? row[x - 1] : 0)) / (solid_angle(y) * rows_.back());
+}
+
+double MapSampler::pdf(const Vec3& direction) const {
+    const Vec2 uv = latitude_longitude(direction);
+    return texel_pdf(std::min(uint32_t(uv.x * width_), width_ - 1), std::min(uint32_t(uv.y * height_), height_ - 1));
+}
+
+double MapSampler::interpolated_pdf(const Vec3& direction) const {
+    const Vec2 at = latitude_longitude(direction) * Vec2(width_, height_) - Vec2(0.5);
+    const double x0 = std::floor(at.x), y0 = std::floor(at.y), fx = at.x - x0, fy = at.y - y0;
+    const auto texel = [&](double x, double y) {
+        const auto wrapped = uint32_t((int64_t(x) + width_) % width_);
+        return texel_pdf(wrapped, uint32_t(std::clamp(y, 0.0, height_ - 1.0)));
+    };
+    return (1 - fy) * ((1 - fx) * texel(x0, y0) + fx * texel(x0 + 1, y0)) +
+           fy * ((1 - fx) * texel(x0, y0 + 1) + fx * texel(x0 + 1, y0 + 1));
+}
+
+std::vector<MapPoint> draw_map_points(const RgbImage& map, const MapSampler& sampler, Lookup lookup, uint32_t seed,
+                                      uint32_t count) {
+    // Two well-mixed words of the seed (the finaliser of MurmurHash3, Appleby 2011).
+    const auto mix = [](uint32_t h) {
+        h = (h ^ h >> 16) * 0x85ebca6bu;
+        h = (h ^ h >> 13) * 0xc2b2ae35u;
+        return h ^ h >> 16;
+    };
+    const uint32_t shift_x = mix(seed + 0x9e3779b9u), shift_y = mix(shift_x + 0x9e3779b9u);
+    std::vector<MapPoint> points(count);
+    for (uint32_t i = 0; i < count; ++i) {
+        const SequencePoint point = sequence_point(i);
+        const MapSampler::Sample sample = sampler.sample(to_unit({point.x ^ shift_x, point.y ^ shift_y}));
+        const Vec3& d = sample.direction;
+        const Vec3 light = radiance(map, d, lookup);
+        points[i] = {{float(d.x), float(d.y), float(d.z)}, float(1 / sample.pdf),
+                     {float(light.x), float(light.y), float(light.z)}, float(lookup == Lookup::linear ? sampler.interpolated_pdf(d) : sampler.pdf(d))};
+    }
+    return points;
+}
+
+}  // namespace lightband
