@@ -73,7 +73,7 @@ void stretch_is_the_jacobians_largest_singular_value(void**) {
     }
 }
 
-// Two points on either side of the square's edge that the border joins are neighbours on the sphere.
+// Across the square's edge lies the texel's neighbour on the sphere, and behind it the next: never the texel itself.
 void octahedral_border_joins_neighbours(void**) {
     constexpr int side = 64;
     const auto direction = [](int x, int y) { return Octahedral::to_direction({(x + 0.5) / side, (y + 0.5) / side}); };
@@ -82,12 +82,16 @@ void octahedral_border_joins_neighbours(void**) {
     const double farthest = std::sqrt(2.0 * 3 * 4 * pi) / side;
     for (int i = 0; i < side; ++i)
         for (int edge = 0; edge < 4; ++edge) {
-            const int out = edge & 1 ? side : -1, in = edge & 1 ? side - 1 : 0;
-            int x = edge & 2 ? i : out, y = edge & 2 ? out : i;
-            const Vec3 inside = direction(edge & 2 ? i : in, edge & 2 ? in : i);
-            octahedral_border(side, x, y);
-            assert_true(x >= 0 && x < side && y >= 0 && y < side);
-            check_at_most("distance across the edge", glm::length(direction(x, y) - inside), farthest);
+            const auto distance_to = [&](int steps_out) {
+                const int in = edge & 1 ? side - 1 : 0, out = edge & 1 ? in + steps_out : -steps_out;
+                int x = edge & 2 ? i : out, y = edge & 2 ? out : i;
+                octahedral_border(side, x, y);
+                assert_true(x >= 0 && x < side && y >= 0 && y < side);
+                return glm::length(direction(x, y) - direction(edge & 2 ? i : in, edge & 2 ? in : i));
+            };
+            assert_true(distance_to(1) > 0);
+            assert_true(distance_to(2) > distance_to(1));
+            check_at_most("distance across the edge", distance_to(1), farthest);
         }
 }
 
@@ -412,6 +416,37 @@ void narrower_lobes_have_more_bandwidth(void**) {
     }
 }
 
+// One view by its definition: cos(theta_o) of the view, the lobe on the square, and in each cell the largest of its
+// texels.
+void lobes_are_analysed_view_by_view(void**) {
+    constexpr int fine = LobeBandwidth::analysis_side, side = LobeBandwidth::side, view = 20;
+    const Brdf brdf = Ggx{0.3, Vec3(0.9)};
+    const double cosine = (view + 0.5) / LobeBandwidth::views;
+    const Vec3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
+    const auto direction = [](double x, double y) { return HemiOctahedral::to_direction(Vec2(x, y) / double(fine)); };
+    const SquareImage lobe = picture(fine, [&](int x, int y) {
+        const Vec3 wi = direction(x + 0.5, y + 0.5);
+        return luminance(evaluate(brdf, wi, wo)) * wi.z;
+    });
+    const std::vector<BandLimit> limits = limits_of(lobe, clamped_border, BandRule::energy);
+    std::vector<double> expected(size_t(side) * side);
+    for (int y = 0; y < fine; ++y)
+        for (int x = 0; x < fine; ++x) {
+            const double stretched = stretch(HemiOctahedral{}, direction(x + 0.5, y + 0.5));
+            double& cell = expected[size_t(y * side / fine * side + x * side / fine)];
+            cell = std::max(cell, limits[size_t(y * fine + x)].frequency * fine * stretched);
+        }
+    const LobeBandwidth found = lobe_bandwidth(brdf, BandRule::energy);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const double value = expected[size_t(y * side + x)];
+            check_close("cell", double(found.values[size_t((view * side + y) * side + x)]), value, 0x1p-23 * value);
+            const double scale = double(fine) / side;
+            check_close("lookup", found.at(direction((x + 0.5) * scale, (y + 0.5) * scale), wo), value,
+                        0x1p-23 * value);
+        }
+}
+
 // The cosine falls from 1 to 0 over a quarter turn and ends in an edge at the horizon: by the energy rule a slow lobe.
 void lambert_is_slow_inside(void**) {
     const LobeBandwidth lambert = lobe_bandwidth(Lambert{Vec3(0.8)}, BandRule::energy);
@@ -464,6 +499,7 @@ int main() {
         cmocka_unit_test(reflection_grows_with_each_argument),
         cmocka_unit_test(levels_keep_to_nyquist),
         cmocka_unit_test(narrower_lobes_have_more_bandwidth),
+        cmocka_unit_test(lobes_are_analysed_view_by_view),
         cmocka_unit_test(lambert_is_slow_inside),
         cmocka_unit_test(black_reflects_no_bandwidth),
         cmocka_unit_test(near_mirror_is_unbounded),

@@ -150,34 +150,34 @@ void unknown_choices_and_names_are_listed(void**) {
     }
 }
 
-// What the passes read is what the table names first; the other choice is the other value.
+// What the passes read is what the table names first; each choice moves its own value and no other.
 void typed_values_follow_the_table(void**) {
-    Settings settings;
-    assert_true(settings.method() == Method::adaptive);
-    assert_true(settings.transport() == TransportForm::correlated);
-    assert_true(settings.band_rule() == BandRule::energy);
-    assert_true(settings.variance() == Variance::moments);
-    assert_true(settings.allocation() == Allocation::least_error);
-    assert_true(settings.sequence() == Sequence::sobol);
-    assert_true(settings.brdf_lookup() == Lookup::nearest);
-    assert_true(settings.environment_lookup() == Lookup::linear);
-    assert_false(settings.background());
-    settings.set_choice("transport", "box");
-    settings.set_choice("band_rule", "sum");
-    settings.set_choice("variance", "printed");
-    settings.set_choice("allocation", "constant_variance");
-    settings.set_choice("sequence", "random");
-    settings.set_choice("brdf_lookup", "linear");
-    settings.set_choice("environment_lookup", "nearest");
-    settings.set_choice("background", "environment");
-    assert_true(settings.transport() == TransportForm::box);
-    assert_true(settings.band_rule() == BandRule::sum);
-    assert_true(settings.variance() == Variance::printed);
-    assert_true(settings.allocation() == Allocation::constant_variance);
-    assert_true(settings.sequence() == Sequence::random);
-    assert_true(settings.brdf_lookup() == Lookup::linear);
-    assert_true(settings.environment_lookup() == Lookup::nearest);
-    assert_true(settings.background());
+    struct Choice {
+        const char *name, *other;
+        bool (*chosen)(const Settings& settings);
+    };
+    const Choice choices[] = {
+        {"method", "reference", [](const Settings& s) { return s.method() == Method::reference; }},
+        {"transport", "box", [](const Settings& s) { return s.transport() == TransportForm::box; }},
+        {"band_rule", "sum", [](const Settings& s) { return s.band_rule() == BandRule::sum; }},
+        {"variance", "printed", [](const Settings& s) { return s.variance() == Variance::printed; }},
+        {"allocation", "constant_variance",
+         [](const Settings& s) { return s.allocation() == Allocation::constant_variance; }},
+        {"brdf_lookup", "linear", [](const Settings& s) { return s.brdf_lookup() == Lookup::linear; }},
+        {"environment_lookup", "nearest", [](const Settings& s) { return s.environment_lookup() == Lookup::nearest; }},
+        {"background", "environment", [](const Settings& s) { return s.background(); }},
+        // A reference has its own way of sampling: these two say so without being asked.
+        {"sequence", "random",
+         [](const Settings& s) { return s.method() == Method::adaptive && s.sequence() == Sequence::random; }},
+        {"sampler", "brdf",
+         [](const Settings& s) { return s.method() == Method::adaptive && s.sampler() == Sampler::brdf; }},
+    };
+    for (const Choice& set : choices) {
+        Settings settings;
+        for (const Choice& read : choices) assert_false(read.chosen(settings));
+        settings.set_choice(set.name, set.other);
+        for (const Choice& read : choices) assert_int_equal(read.chosen(settings), &read == &set);
+    }
 }
 
 void references_are_random_and_numbers_arrive(void**) {
@@ -185,6 +185,7 @@ void references_are_random_and_numbers_arrive(void**) {
     settings.set_choice("method", "reference");
     assert_true(settings.method() == Method::reference);
     assert_true(settings.sequence() == Sequence::random);
+    assert_true(settings.sampler() == Sampler::brdf);
     settings.set_number("samples", 1024);
     settings.set_number("bandwidth_scale", 3);
     check_close("scale", settings.bandwidth_scale(), 3, 0);
