@@ -13,7 +13,7 @@ import trimesh
 import lightband
 
 MESHES = {"bunny": "bun_zipper.ply", "buddha": "happy_vrip_res3.ply", "dragon": "dragon_vrip_res3.ply",
-          "car body": "beetle-alt.obj", "sphere": None}
+          "car body": "beetle-alt.obj", "sphere": None, "blob": None, "knot": None, "torus": None}  # None: built in
 MAPS = {"grace": "grace_probe_latlong.hdr", "stpeters": "stpeters_probe_latlong.hdr", "studio": "studio.hdr",
         "forest": "forest.hdr", "city": "city.hdr", "courtyard": "courtyard.exr", "night": "night.exr", "sunset": "sunset.exr"}
 

@@ -90,7 +90,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("docs/measurements"))
     parser.add_argument("--size", type=int, default=512)
     parser.add_argument("--samples", type=int, default=1024)
-    parser.add_argument("--mesh", default="buddha")
+    parser.add_argument("--mesh", default="blob")
     parser.add_argument("--map", default="forest")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
