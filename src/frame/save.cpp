@@ -38,6 +38,7 @@ void save_exr(const Frame& frame, const std::string& path, const std::string& fi
     std::vector<io::NamedChannel> channels;
     std::istringstream names(fields + ',');  // so that an empty last name is seen
     for (std::string name; std::getline(names, name, ',');) {
+        if (name.empty()) throw Error(LB_ERROR_INVALID_ARGUMENT, text("names \"", fields, "\" holds an empty field name"));
         const HostArray array = frame.field(name);
         if (array.shape[0] != frame.height())
             throw Error(LB_ERROR_INVALID_ARGUMENT, text("field ", name, " is not of the picture's size and cannot be saved"));
