@@ -30,12 +30,30 @@ SquareImage lobe_image(const Brdf& brdf, const Vec3& wo) {
     return image;
 }
 
+// The wavelets of a level stand on a lattice, and a narrow peak may fall where one coarse coefficient takes nearly all of it.
+// A second transform of the picture moved by a third of it (a third of the spacing, on every level's lattice) sees the peak
+// elsewhere; the larger result holds. f cos(theta_i) vanishes along the whole edge, the horizon, so the picture is periodic.
+std::vector<BandLimit> limits_of(const SquareImage& image, BandRule rule) {
+    const int side = image.size, third = side / 3;
+    std::vector<BandLimit> limits = local_band_limits(analyse(image, periodic_border), side, periodic_border, rule);
+    SquareImage moved(side);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) moved.at(x, y) = image.at((x + third) % side, (y + third) % side);
+    const std::vector<BandLimit> others = local_band_limits(analyse(moved, periodic_border), side, periodic_border, rule);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const BandLimit& other = others[size_t(y * side + x)];
+            BandLimit& limit = limits[size_t((y + third) % side * side + (x + third) % side)];
+            limit = {std::max(limit.frequency, other.frequency), limit.open || other.open};
+        }
+    return limits;
+}
+
 void analyse_view(const Brdf& brdf, BandRule rule, int view, float* out) {
     constexpr int side = LobeBandwidth::analysis_side;
     const double cosine = (view + 0.5) / LobeBandwidth::views;
     const Vec3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
-    const SquareImage image = lobe_image(brdf, wo);
-    const std::vector<BandLimit> limits = local_band_limits(analyse(image, clamped_border), side, clamped_border, rule);
+    const std::vector<BandLimit> limits = limits_of(lobe_image(brdf, wo), rule);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const BandLimit limit = limits[size_t(y * side + x)];

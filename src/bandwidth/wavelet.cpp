@@ -59,9 +59,9 @@ void octahedral_border(int side, int& x, int& y) {
     }
 }
 
-void clamped_border(int side, int& x, int& y) {
-    x = std::clamp(x, 0, side - 1);
-    y = std::clamp(y, 0, side - 1);
+void periodic_border(int side, int& x, int& y) {
+    x = (x % side + side) % side;
+    y = (y % side + side) % side;
 }
 
 WaveletBands analyse(const SquareImage& image, const Border& border) {

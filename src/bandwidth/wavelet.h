@@ -20,7 +20,7 @@ struct SquareImage {
 // How a picture goes on beyond its edge; given a position outside a side x side picture, returns one inside.
 using Border = std::function<void(int side, int& x, int& y)>;
 void octahedral_border(int side, int& x, int& y);  // across an edge lies the same edge, mirrored about its middle
-void clamped_border(int side, int& x, int& y);
+void periodic_border(int side, int& x, int& y);
 
 // The bands of a transform. details[k]: the largest magnitude of the three detail coefficients (horizontal, vertical,
 // diagonal; orthonormal) of level k + 1, side size >> (k + 1). smooth: the remaining approximation.
