@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import _thread
 import gc
+import signal
 import sys
 import threading
 import time
@@ -103,6 +104,15 @@ def test_an_answer_without_truth_value_is_an_error(long_frame: lightband.Frame, 
         long_frame.render(scene, progress=lambda _: np.zeros(2))
 
 
+@pytest.fixture
+def ctrl_c_heard() -> Iterator[None]:
+    """Python's own handler of Ctrl-C: a shell's background jobs start with the signal ignored."""
+    former = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, former)
+
+
+@pytest.mark.usefixtures("ctrl_c_heard")
 def test_ctrl_c_without_a_callback(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
     long_frame["accumulate"] = 1 << 15  # about half a minute, were it not interrupted
     timer = threading.Timer(0.3, _thread.interrupt_main)
