@@ -177,7 +177,7 @@ LB_API lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]);
  * convention); texels are sampled at their centres. 1x1 up to 16384x8192.
  * In a map of lossy compression (DWAA, DWAB), values from -0.01 to 0 are its ringing: they become 0, and the log
  * callback hears how many.
- * LB_ERROR_FILE, LB_ERROR_FORMAT (corrupt; a texel that is negative or not finite: the message says where). */
+ * LB_ERROR_FILE, LB_ERROR_FORMAT (corrupt; a texel that is negative, not finite or above 1e15: the message says where). */
 LB_API lb_result lb_environment_load(lb_context context, const char* path, lb_environment* environment);
 
 /* The same from memory: width * height * 3 float32, rows top-down, tightly packed, RGB interleaved. Copied. */

@@ -9,10 +9,10 @@ void check_radiance(const RgbImage& map, const std::string& source, lb_result co
     const char* const names[3] = {"red", "green", "blue"};
     for (size_t i = 0; i < map.rgb.size(); ++i) {
         const float value = map.rgb[i];
-        if (std::isfinite(value) && value >= 0) continue;
+        if (value >= 0 && value <= largest_radiance) continue;
         const size_t texel = i / 3;
         throw Error(code, text(source, ": ", names[i % 3], " of texel (", texel % map.width, ", ", texel / map.width,
-                               ") is ", value, "; radiance must be finite and not negative"));
+                               ") is ", value, "; radiance must be finite, not negative and at most ", largest_radiance));
     }
 }
 

@@ -11,7 +11,10 @@
 
 namespace lightband {
 
-// Throws LB_ERROR_FORMAT (or code) when a texel is negative or not finite; the message names source, texel and value.
+// Prediction squares radiance times BRDF peaks; up to here the squares stay within float (3e38).
+constexpr float largest_radiance = 1e15f;
+
+// Throws code when a texel is negative, not finite or above largest_radiance; the message names source, texel and value.
 void check_radiance(const RgbImage& map, const std::string& source, lb_result code);
 
 // A lossy map rings: beside bright texels, dark ones come out slightly negative. Sets values in [-ringing, 0) of such a map to
