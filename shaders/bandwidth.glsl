@@ -62,8 +62,9 @@ float curvature_at(ivec2 at, Surface here) {
     float e = dot(px, px), f = dot(px, py), g = dot(py, py);
     float l = dot(nx, px), m = 0.5 * (dot(nx, py) + dot(ny, px)), n = dot(ny, py);
     float area = e * g - f * f;
-    // Steps that are parallel to within float rounding of their products span nothing.
-    if (!(area > 1e-6 * e * g)) return -1.0;
+    // Steps that are parallel to within float rounding of their products (2^-23, three products) span nothing.
+    const float parallel = 1e-6;
+    if (!(area > parallel * e * g)) return -1.0;
     float mean = 0.5 * (e * n - 2.0 * f * m + g * l) / area, gauss = (l * n - m * m) / area;
     return (abs(mean) + sqrt(max(mean * mean - gauss, 0.0))) / unit_length;
 }

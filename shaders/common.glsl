@@ -53,7 +53,7 @@ ivec2 octahedral_border(ivec2 at, int side) {
 mat3 local_frame(vec3 n, vec3 wo) {
     vec3 along = wo - dot(wo, n) * n;
     float squared = dot(along, along);
-    // Below this the azimuth is the rounding of wo (2^-23), and any tangent serves.
+    // Below this (2^-23 squared, and a little) the azimuth is the rounding of wo, and any tangent serves.
     vec3 other = abs(n.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     vec3 tangent = squared > 1e-13 ? along * inversesqrt(squared) : normalize(cross(other, n));
     return mat3(tangent, cross(n, tangent), n);

@@ -21,6 +21,11 @@ const float chord_slope = 0.25;
 // Uneven weights shift the mean away from the pixel; by at most this part of the way to a parent, or the pixel is shaded.
 const float centre_tolerance = 0.25;
 
+// Below these a float's range ends: they keep a quotient finite and change no weight that counts.
+const float least_cosine = 1e-6;   // its square is still a normal number; a pixel seen so flat has level 0
+const float least_squared = 1e-37; // metres^2: chords in a scene of 1e-6 m are above it by ten orders
+const float least_weight = 1e-30;
+
 struct Parents {
     int count;
     ivec2 at[4];
@@ -36,7 +41,7 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
     vec3 normal = texelFetch(normals, at, 0).xyz;
     uint material = texelFetch(materials, at, 0).r;
     vec3 wo = -normalize(position);
-    float cosine = max(dot(normal, wo), 1e-6);  // the square below stays in range; such a pixel has level 0
+    float cosine = max(dot(normal, wo), least_cosine);
     vec2 axis = vec2(dot(normal, screen_right), -dot(normal, screen_up));
     axis = dot(axis, axis) > 0.0 ? normalize(axis) : vec2(0);
 
@@ -55,14 +60,14 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
         if (texelFetch(materials, parent, 0).r != material) continue;
         vec3 chord = texelFetch(positions, parent, 0).xyz - position;
         float rise = max(abs(dot(chord, normal)), abs(dot(chord, texelFetch(normals, parent, 0).xyz)));
-        float slope = rise * inversesqrt(max(dot(chord, chord), 1e-37)) / chord_slope;
+        float slope = rise * inversesqrt(max(dot(chord, chord), least_squared)) / chord_slope;
         float g_z = exp(-slope * slope);
         // g_a with M = R^T diag(1, 1 / cos^2) R, narrow along the projected normal, less the part that all directions share;
         // in units of the spacing that the pixel's own bandwidth allows.
         float along = dot(vec2(offset), axis) * exp2(-pixel_level);
         float g_a = exp(-along * along * (1.0 / (cosine * cosine) - 1.0));
         available += g_z;
-        float weight = g_z * max(g_a, 1e-30);
+        float weight = g_z * max(g_a, least_weight);
         result.at[result.count] = parent;
         result.weight[result.count] = weight;
         result.count += 1;
