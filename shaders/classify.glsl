@@ -45,8 +45,8 @@ void around(ivec2 at, int level, out int least, out float variance) {
 bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     Parents parents = parents_of(at, level, pixel_level);
     if (!parents.balanced) return false;
-    for (int i = 0; i < parents.count; ++i)
-        if (int(imageLoad(levels, parents.at[i]).r) <= level) return false;
+    for (int corner = 0; corner < 4; ++corner)
+        if (parents.weight[corner] > 0.0 && int(imageLoad(levels, parents.at[corner]).r) <= level) return false;
     return true;
 }
 

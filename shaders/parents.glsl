@@ -27,10 +27,9 @@ const float least_squared = 1e-37; // metres^2: chords in a scene of 1e-6 m are 
 const float least_weight = 1e-30;
 
 struct Parents {
-    int count;
     ivec2 at[4];
-    float weight[4];
-    bool balanced;  // enough of them, evenly around the pixel
+    float weight[4];  // sum 1; 0: no parent in this place
+    bool balanced;    // enough of them, evenly around the pixel
 };
 
 Parents parents_of(ivec2 at, int level, float pixel_level) {
@@ -46,15 +45,15 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
     axis = dot(axis, axis) > 0.0 ? normalize(axis) : vec2(0);
 
     Parents result;
-    result.count = 0;
     float available = 0.0, all = 0.0, sum = 0.0;
     vec2 centre = vec2(0);
     for (int corner = 0; corner < 4; ++corner) {
         ivec2 sign = ivec2(corner & 1, corner >> 1) * 2 - 1;
-        if (!odd.x && sign.x > 0) continue;
-        if (!odd.y && sign.y > 0) continue;
         ivec2 offset = ivec2(odd.x ? sign.x : 0, odd.y ? sign.y : 0) * step;
         ivec2 parent = at + offset;
+        result.at[corner] = parent;
+        result.weight[corner] = 0.0;
+        if ((!odd.x && sign.x > 0) || (!odd.y && sign.y > 0)) continue;  // midway between two: each once
         all += 1.0;
         if (any(lessThan(parent, ivec2(0))) || any(greaterThanEqual(parent, size))) continue;
         if (texelFetch(materials, parent, 0).r != material) continue;
@@ -66,15 +65,14 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
         // in units of the spacing that the pixel's own bandwidth allows.
         float along = dot(vec2(offset), axis) * exp2(-pixel_level);
         float g_a = exp(-along * along * (1.0 / (cosine * cosine) - 1.0));
-        available += g_z;
         float weight = g_z * max(g_a, least_weight);
-        result.at[result.count] = parent;
-        result.weight[result.count] = weight;
-        result.count += 1;
+        result.weight[corner] = weight;
+        available += g_z;
         sum += weight;
         centre += weight * vec2(offset) / float(step);
     }
     result.balanced = available >= 0.5 * all && sum > 0.0 && length(centre) <= centre_tolerance * sum;
-    for (int i = 0; i < result.count; ++i) result.weight[i] /= sum;
+    if (sum > 0.0)
+        for (int corner = 0; corner < 4; ++corner) result.weight[corner] /= sum;
     return result;
 }

@@ -14,6 +14,7 @@ void main() {
     if (texelFetch(decisions, at, 0).r != 1u || lattice_level(at, coarsest_level) != level) return;
     Parents parents = parents_of(at, level, float(imageLoad(levels, at).r));
     vec4 sum = vec4(0);
-    for (int i = 0; i < parents.count; ++i) sum += parents.weight[i] * imageLoad(radiances, parents.at[i]);
+    for (int corner = 0; corner < 4; ++corner)
+        if (parents.weight[corner] > 0.0) sum += parents.weight[corner] * imageLoad(radiances, parents.at[corner]);
     imageStore(radiances, at, sum);
 }
