@@ -64,7 +64,7 @@ void give_array(HostArray array, lb_buffer* buffer, lb_buffer_view* view) {
     lb_buffer_view described = read_struct(view, "view");
     const auto shared = std::make_shared<const HostArray>(std::move(array));
     described.type = shared->type;
-    described.data = shared->bytes.data();
+    described.data = shared->elements.get();
     described.dimensions = uint32_t(shared->shape.size());
     int64_t stride = HostArray::element_size(shared->type);
     for (size_t i = 4; i-- > 0;) {

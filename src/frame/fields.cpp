@@ -20,12 +20,11 @@ std::vector<uint8_t> read_bytes(const gl::Texture& texture, size_t texels) {
     return values;
 }
 
-// `count` components from `first` on, out of `of`.
-std::vector<float> components_of(const std::vector<float>& values, size_t first, size_t count, size_t of = 4) {
-    std::vector<float> part(values.size() / of * count);
-    for (size_t i = 0; i < values.size() / of; ++i)
-        for (size_t c = 0; c < count; ++c) part[i * count + c] = values[of * i + first + c];
-    return part;
+// The last of four components; the others a readback can pick by itself.
+std::vector<float> alpha_of(const std::vector<float>& rgba) {
+    std::vector<float> alpha(rgba.size() / 4);
+    for (size_t i = 0; i < alpha.size(); ++i) alpha[i] = rgba[4 * i + 3];
+    return alpha;
 }
 
 double luminance_of(const float* rgb) { return luminance(Vec3(rgb[0], rgb[1], rgb[2])); }
@@ -56,55 +55,53 @@ HostArray Frame::field(const std::string& name) const {
     const size_t pixels = size_t(width_) * height_;
     const std::vector<uint64_t> flat = {height_, width_};
     const auto picture = [&](size_t components) { return std::vector<uint64_t>{height_, width_, components}; };
-    const auto scalar = [&](const std::vector<float>& values, const char* unit) {
-        return HostArray::of(LB_TYPE_FLOAT32, flat, unit, values);
+    const auto scalar = [&](std::vector<float> values, const char* unit) {
+        return HostArray::of(LB_TYPE_FLOAT32, flat, unit, std::move(values));
     };
-    const auto bandwidth = [&](size_t component) {
-        return components_of(read_floats(r.prediction->bandwidth, GL_RGBA, pixels, 4), component, 1);
-    };
-    const std::vector<uint8_t> material = read_bytes(r.gbuffer.material, pixels);
+    const auto bandwidth = [&](GLenum component) { return read_floats(r.prediction->bandwidth, component, pixels, 1); };
+    std::vector<uint8_t> material = read_bytes(r.gbuffer.material, pixels);
 
-    if (name == "material") return HostArray::of(LB_TYPE_UINT8, flat, "instance + 1", material);
+    if (name == "material") return HostArray::of(LB_TYPE_UINT8, flat, "instance + 1", std::move(material));
     if (name == "color") {
         std::vector<float> rgba = read_floats(r.shading.radiance, GL_RGBA, pixels, 4);
         for (size_t i = 0; i < pixels; ++i) {
             if (!r.accumulated.empty() && material[i] != 0) std::copy_n(&r.accumulated[4 * i], 3, &rgba[4 * i]);
             rgba[4 * i + 3] = material[i] != 0 ? 1.0f : 0.0f;
         }
-        return HostArray::of(LB_TYPE_FLOAT32, picture(4), "radiance", rgba);
+        return HostArray::of(LB_TYPE_FLOAT32, picture(4), "radiance", std::move(rgba));
     }
     if (name == "depth") {
-        std::vector<float> depth = components_of(read_floats(r.gbuffer.position, GL_RGBA, pixels, 4), 3, 1);
+        std::vector<float> depth = alpha_of(read_floats(r.gbuffer.position, GL_RGBA, pixels, 4));
         for (size_t i = 0; i < pixels; ++i)
             if (material[i] == 0) depth[i] = std::numeric_limits<float>::infinity();
-        return scalar(depth, "metre");
+        return scalar(std::move(depth), "metre");
     }
     if (name == "position") {
-        std::vector<float> position = components_of(read_floats(r.gbuffer.position, GL_RGBA, pixels, 4), 0, 3);
+        std::vector<float> position = read_floats(r.gbuffer.position, GL_RGB, pixels, 3);
         for (size_t i = 0; i < 3 * pixels; ++i)
             if (material[i / 3] != 0) position[i] = float(position[i] + r.eye[glm::length_t(i % 3)]);
-        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "metre", position);
+        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "metre", std::move(position));
     }
     if (name == "normal")
-        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "", components_of(read_floats(r.gbuffer.normal, GL_RGBA, pixels, 4), 0, 3));
-    if (name == "bandwidth_spatial") return scalar(bandwidth(0), "1/metre");
-    if (name == "bandwidth_angular") return scalar(bandwidth(1), "1/radian");
-    if (name == "bandwidth_image") return scalar(bandwidth(2), "1/pixel");
-    if (name == "curvature") return scalar(bandwidth(3), "1/metre");
+        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "", read_floats(r.gbuffer.normal, GL_RGB, pixels, 3));
+    if (name == "bandwidth_spatial") return scalar(bandwidth(GL_RED), "1/metre");
+    if (name == "bandwidth_angular") return scalar(bandwidth(GL_GREEN), "1/radian");
+    if (name == "bandwidth_image") return scalar(bandwidth(GL_BLUE), "1/pixel");
+    if (name == "curvature") return scalar(alpha_of(read_floats(r.prediction->bandwidth, GL_RGBA, pixels, 4)), "1/metre");
     if (name == "level") {
         std::vector<uint8_t> levels = read_bytes(r.prediction->levels, size_t(width_) * r.prediction->pyramid_height);
         levels.resize(pixels);
         for (size_t i = 0; i < pixels; ++i)
             if (material[i] == 0) levels[i] = 0;
-        return HostArray::of(LB_TYPE_UINT8, flat, "log2(pixel)", levels);
+        return HostArray::of(LB_TYPE_UINT8, flat, "log2(pixel)", std::move(levels));
     }
     if (name == "shaded") {
         std::vector<uint8_t> decisions = read_bytes(r.shading.decision, pixels);
         for (uint8_t& decision : decisions) decision = decision >= 2;
-        return HostArray::of(LB_TYPE_UINT8, flat, "", decisions);
+        return HostArray::of(LB_TYPE_UINT8, flat, "", std::move(decisions));
     }
     if (name == "variance_predicted")
-        return scalar(components_of(read_floats(r.prediction->prediction, GL_RG, pixels, 2), 0, 1, 2), "radiance^2");
+        return scalar(read_floats(r.prediction->prediction, GL_RED, pixels, 1), "radiance^2");
     if (name == "level_pyramid")
         return HostArray::of(LB_TYPE_UINT8, {r.prediction->pyramid_height, width_}, "log2(pixel)",
                              read_bytes(r.prediction->levels, size_t(width_) * r.prediction->pyramid_height));
@@ -114,7 +111,7 @@ HostArray Frame::field(const std::string& name) const {
 
     std::vector<uint32_t> counts(pixels);
     r.shading.sample_count.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels * sizeof(uint32_t), counts.data());
-    if (name == "sample_count") return HostArray::of(LB_TYPE_UINT32, flat, "sample", counts);
+    if (name == "sample_count") return HostArray::of(LB_TYPE_UINT32, flat, "sample", std::move(counts));
     // variance_measured: the samples' own, unbiased; rounding may leave a constant integrand slightly below zero.
     const std::vector<float> radiance = r.accumulated.empty() ? read_floats(r.shading.radiance, GL_RGBA, pixels, 4) : r.accumulated;
     std::vector<float> variance(pixels);
@@ -123,7 +120,7 @@ HostArray Frame::field(const std::string& name) const {
         const double mean = luminance_of(&radiance[4 * i]), n = counts[i];
         variance[i] = float(std::max(0.0, (double(radiance[4 * i + 3]) - mean * mean) * n / (n - 1)));
     }
-    return scalar(variance, "radiance^2");
+    return scalar(std::move(variance), "radiance^2");
 }
 
 }  // namespace lightband

@@ -14,11 +14,9 @@ bool ends_in(const std::string& path, const std::string& ending) {
 }
 
 float element(const HostArray& array, size_t i) {
-    if (array.type == LB_TYPE_UINT8) return float(array.bytes[i]);
-    if (array.type == LB_TYPE_FLOAT32) return array.floats()[i];
-    uint32_t value;
-    std::memcpy(&value, &array.bytes[4 * i], sizeof value);
-    return float(value);
+    if (array.type == LB_TYPE_UINT8) return float(array.as<uint8_t>()[i]);
+    if (array.type == LB_TYPE_UINT32) return float(array.as<uint32_t>()[i]);
+    return array.as<float>()[i];
 }
 
 void append_channels(const std::string& field, const HostArray& array, std::vector<io::NamedChannel>* channels) {
@@ -59,8 +57,8 @@ void save_png(const Frame& frame, const std::string& path, const std::string& fi
     if (!std::isfinite(exposure)) throw Error(LB_ERROR_INVALID_ARGUMENT, text("exposure is ", exposure, "; it must be finite"));
     const HostArray color = frame.field("color");
     const double gain = std::exp2(double(exposure));
-    std::vector<uint8_t> rgba(color.bytes.size() / sizeof(float));
-    for (size_t i = 0; i < rgba.size(); ++i) rgba[i] = i % 4 == 3 ? 255 : srgb(gain * color.floats()[i]);
+    std::vector<uint8_t> rgba(color.size);
+    for (size_t i = 0; i < rgba.size(); ++i) rgba[i] = i % 4 == 3 ? 255 : srgb(gain * color.as<float>()[i]);
     io::write_png(path, frame.width(), frame.height(), rgba);
 }
 
