@@ -16,6 +16,15 @@ MESHES = {"bunny": "bun_zipper.ply", "buddha": "happy_vrip_res3.ply", "dragon": 
           "car body": "beetle-alt.obj", "sphere": None, "blob": None, "knot": None, "torus": None}  # None: built in
 MAPS = {"grace": "grace_probe_latlong.hdr", "stpeters": "stpeters_probe_latlong.hdr", "studio": "studio.hdr",
         "forest": "forest.hdr", "city": "city.hdr", "courtyard": "courtyard.exr", "night": "night.exr", "sunset": "sunset.exr"}
+CAMERA = {"eye": (0.35, 0.3, 1.6), "target": (0, 0, 0), "fov_y": 0.56}  # metres, radians
+
+
+def mesh_arrays(data: Path, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices, centred and scaled so that their bounding sphere has radius 1/2, and triangles of a scanned mesh."""
+    loaded = trimesh.load(data / "mesh" / MESHES[name], force="mesh", process=True)
+    points = np.asarray(loaded.vertices) - loaded.bounds.mean(axis=0)
+    points *= 0.5 / np.linalg.norm(points, axis=1).max()
+    return points.astype(np.float32), np.asarray(loaded.faces, np.uint32)
 
 
 class Stage:
@@ -39,22 +48,16 @@ class Stage:
         return self._maps[name]
 
     def mesh(self, name: str) -> lightband.Mesh:
-        """Centred, scaled so that its bounding sphere has radius 1/2."""
         if name not in self._meshes:
-            if MESHES[name] is None:
-                self._meshes[name] = self.context.builtin_mesh(name)
-            else:
-                loaded = trimesh.load(self.data / "mesh" / MESHES[name], force="mesh", process=True)
-                points = np.asarray(loaded.vertices) - loaded.bounds.mean(axis=0)
-                points *= 0.5 / np.linalg.norm(points, axis=1).max()
-                self._meshes[name] = self.context.mesh(points.astype(np.float32), np.asarray(loaded.faces, np.uint32))
+            self._meshes[name] = (self.context.builtin_mesh(name) if MESHES[name] is None
+                                  else self.context.mesh(*mesh_arrays(self.data, name)))
         return self._meshes[name]
 
     def scene(self, mesh: str, brdf: str, environment: str) -> lightband.Scene:
         scene = self.context.scene()
         scene.environment = self.environment(environment)
         scene.add(self.mesh(mesh), self.brdf(brdf))
-        scene.camera(eye=(0.35, 0.3, 1.6), target=(0, 0, 0), fov_y=0.56)
+        scene.camera(**CAMERA)
         return scene
 
 
