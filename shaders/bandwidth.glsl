@@ -105,7 +105,7 @@ void main() {
         // Mean square of f cos L / density over the footprint. Where the map is drawn too, its density there follows the
         // radiance; that of the light that matters is its mean square over its mean.
 #if defined(SAMPLER_COMBINED)
-        second += light.y * a.w * a.w * 2.0 * b.w / (b.w + map_density * light.y / light.x);
+        second += light.y * a.w * a.w * (2.0 * b.w / (b.w + map_density * light.y / light.x));  // b.w alone may be 1e8
 #else
         second += light.y * a.w * a.w;
 #endif
