@@ -114,6 +114,9 @@ void main() {
     // All weights zero: nothing arrives, and a black pixel has no bandwidth.
     vec2 nu = weights > 0.0 ? weighted / weights : vec2(0);
     float image_bandwidth = min(nu.y * radians_per_pixel, nyquist);
+    // A mean of pilots that are all at the limit is the limit but for the rounding of its two sums, 2^-24 for each term of
+    // each, and of the conversions back and forth.
+    if (image_bandwidth > nyquist * (1.0 - float(pilot_count + 4) * 1.2e-7)) image_bandwidth = nyquist;
     // Where the surface is not known around the pixel, nothing may be interpolated.
     if (curvature < 0.0) image_bandwidth = nyquist;
     float mean = weights / pilot_count;
