@@ -50,8 +50,8 @@ inline ShadingPoint shading_point(const std::vector<float>& position, const std:
     return {glm::normalize(vector_at(normal, pixel)), glm::normalize(seen_from - vector_at(position, pixel))};
 }
 
-// Pixels of variance_measured and sample_count that saw at least two samples each. The quadrature's own error, against one
-// twice as fine, is checked to be below a tenth of a standard error on the first two.
+// Of the covered pixels, or `most` of them by chance; every one must have been shaded. On the first two the quadrature's own
+// error, against one twice as fine, is checked to be below a tenth of a standard error.
 inline Deviations deviations(const Frame& frame, const Expectation& expectation, size_t most) {
     OracleSettings settings;
     settings.brdf_lookup = settings.environment_lookup = expectation.lookups.lookup;

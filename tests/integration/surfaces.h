@@ -9,7 +9,7 @@
 
 namespace lightband::testing {
 
-// A wall one metre before an eye at the origin that looks along -Z, in squares that each fill one pixel and have one normal.
+// A wall one unit before an eye at the origin that looks along -Z, in squares that each fill one pixel and have one normal.
 class Patches {
 public:
     Patches(int columns, int rows, double unit = 1) : columns_(columns), rows_(rows), unit_(unit) {}
@@ -50,7 +50,7 @@ private:
     }
 
     int columns_, rows_;
-    double unit_;
+    double unit_;  // metres
     std::vector<float> positions_, normals_;
     std::vector<uint32_t> indices_;
 };
