@@ -106,7 +106,8 @@ def lambert_under_a_constant(radiance: float, samples: int) -> Row:
         frame = rendered(context, scene, samples=samples, sampler="brdf")
         return largest(luminance(frame) / (np.float64(np.float32(albedo)) * np.float64(np.float32(radiance))) - 1)
 
-    return Row(f"Lambert under {radiance:g} everywhere, {samples} samples", "relative deviation", (samples + 8) * ROUNDING, measure)
+    name = f"Lambert under {radiance:g} everywhere, {samples} samples"
+    return Row(name, "relative deviation", (samples + 8) * ROUNDING, measure)
 
 
 def mirror_under_a_constant(sampler: str) -> Row:
@@ -126,7 +127,8 @@ def mirror_under_a_constant(sampler: str) -> Row:
         deviation = np.maximum(np.abs(luminance(frame) - expected) - 5 * noise, 0) / expected
         return largest(deviation[cosine > 0.1])
 
-    return Row(f"mirror under a constant, samples {sampler}", "relative deviation beyond noise", 4096 * ROUNDING + 2.5e-6, measure)
+    name = f"mirror under a constant, samples {sampler}"
+    return Row(name, "relative deviation beyond noise", 4096 * ROUNDING + 2.5e-6, measure)
 
 
 def light_of_one_texel(texels: NDArray[np.float32]) -> float:
@@ -207,13 +209,14 @@ def saturation(name: str, radiance: NDArray[np.float32]) -> Row:
 
 
 def unit_of_light(factor: float, samples: int = 16) -> Row:
-    """Light times k is the picture times k. Both are sums of n positive terms, each rounded n + 8 times at most."""
+    """Light times k is the picture times k. Both are sums of n positive terms, each rounded n + 8 times at most: the texel, its
+    product with k, the weight, luminance, mean. (The nearest texel: interpolation rounds relative to the brighter one.)"""
 
     def measure(context: lightband.Context) -> float:
         radiance = half_range_map()
         one, other = (
             luminance(rendered(context, scene_of(context, context.ggx(0.2, 0.8), radiance * np.float32(k), mesh="blob"),
-                               samples=samples, method="reference"))
+                               samples=samples, method="reference", environment_lookup="nearest"))
             for k in (1, factor)
         )
         lit = one > 0
@@ -230,10 +233,8 @@ def unit_of_length(factor: float) -> Row:
     are alike to rounding, another side may be taken: one pixel in fifty."""
 
     def measure(context: lightband.Context) -> float:
-        metres, other = (
-            rendered(context, scene_of(context, context.lambert(0.5), half_range_map(), mesh="torus", size=size), side=64, samples=1)
-            for size in (1, factor)
-        )
+        scenes = (scene_of(context, context.lambert(0.5), half_range_map(), mesh="torus", size=k) for k in (1, factor))
+        metres, other = (rendered(context, scene, side=64, samples=1) for scene in scenes)
         both = (metres.material > 0) & (other.material > 0) & (metres.bandwidth_spatial > 0)
         ratio = other.bandwidth_spatial[both].astype(np.float64) * factor / metres.bandwidth_spatial[both]
         return float(np.quantile(np.abs(ratio - 1), 0.98))
