@@ -1,7 +1,7 @@
 // Extremes of every input, each against the oracle or a closed form in double precision. A row is one figure with its
 // bound; `test_extremes` prints them all (bench/extremes.py collects them).
-#include "brdf_testing.h"
 #include "base/text.h"
+#include "brdf_testing.h"
 #include "quadrature.h"
 #include "surfaces.h"
 
