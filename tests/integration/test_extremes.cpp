@@ -315,6 +315,13 @@ void maps_of_denormals(void**) {
     }
 }
 
+// The brightest texels that are accepted: their square, 1e30, times the density of a mirror's lobe, 1e8, leaves little room.
+void brightest_light(void**) {
+    Frame frame = software().frame(side, side);
+    frame.render(scene_of("sphere", software().ggx(1e-4f, {1, 1, 1}), environment(constant_map(1e15f))));
+    row_of_finite_fields("mirror under 1e15 everywhere", frame);
+}
+
 // Nothing arrives: all weights of eq. 5 are zero, and nothing is to be resolved.
 void black_light_and_black_materials(void**) {
     const std::vector<float> zeros(BrdfTable::cell_count * 3), unmeasured(BrdfTable::cell_count * 3, -1.0f);
@@ -517,6 +524,7 @@ int main() {
         cmocka_unit_test(near_and_far_planes),
         cmocka_unit_test(maps_of_any_range),
         cmocka_unit_test(maps_of_denormals),
+        cmocka_unit_test(brightest_light),
         cmocka_unit_test(black_light_and_black_materials),
         cmocka_unit_test(tables_of_any_shape),
         cmocka_unit_test(mirrors),
