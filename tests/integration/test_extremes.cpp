@@ -207,6 +207,10 @@ void creases(void**) {
     // A parent from beyond has a quarter of the weight at least (of four; half of two), and brings as much of the step. Five
     // deviations of one pixel are below half of that, or the row says nothing; means over parents vary less.
     check_at_most("noise over the step", 5 * noise, 0.125 * step);
+    // Each side is a plane, and the flatter neighbour tells: see curvature_of_a_plane.
+    const std::vector<float> curvature = field<float>(frame, "curvature");
+    row("crease of 90 degrees", "curvature beside it, 1/m", double(*std::max_element(curvature.begin(), curvature.end())),
+        0x1p-22 / 0.02);
     row("crease of 90 degrees", "largest deviation over the step", largest / step, 5 * noise / step);
 }
 
@@ -315,11 +319,15 @@ void maps_of_denormals(void**) {
     }
 }
 
-// The brightest texels that are accepted: their square, 1e30, times the density of a mirror's lobe, above 1e8 under cosines
-// below 0.05, leaves no room. A picture of 64 x 64 shows some of those at the outline.
+// The brightest texels that are accepted: their square, 1e30, times the density of a mirror's lobe, D / (4 cos) = 8e8 under
+// this cosine, is more than a float holds; what is stored is within.
 void brightest_light(void**) {
-    Frame frame = software().frame(64, 64);
-    frame.render(scene_of("sphere", software().ggx(1e-4f, {1, 1, 1}), environment(constant_map(1e15f))));
+    constexpr int columns = 8, rows = 8;
+    Patches patches(columns, rows);
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x) patches.add(x, y, normal_under(0.01, patches.to_eye(x, y)));
+    Frame frame = software().frame(columns, rows);
+    frame.render(patches.scene(software().ggx(1e-4f, {1, 1, 1}), environment(constant_map(1e15f))));
     row_of_finite_fields("mirror under 1e15 everywhere", frame);
 }
 
