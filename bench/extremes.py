@@ -55,7 +55,7 @@ def main() -> None:
         out.write(f"# {machine(context)}; {datetime.date.today()}\n")
         writer = csv.DictWriter(out, COLUMNS)
         writer.writeheader()
-        writer.writerows({k: f"{v:.3g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
+        writer.writerows({k: f"{v:.4g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
     print(path.read_text())
     broken = [row for row in rows if not row["measured"] <= row["bound"]]
     if broken:

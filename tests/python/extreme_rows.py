@@ -35,9 +35,9 @@ def constant_map(radiance: float) -> NDArray[np.float32]:
     return np.full((4, 8, 3), radiance, np.float32)
 
 
-def half_range_map(seed: int = 1) -> NDArray[np.float32]:
-    """Log-uniform over all that a half float holds, its denormals included."""
-    exponents = np.random.default_rng(seed).uniform(np.log(HALF_LEAST), np.log(HALF_MOST), (16, 32, 3))
+def half_range_map(least: float = HALF_LEAST, most: float = HALF_MOST) -> NDArray[np.float32]:
+    """Log-uniform over all that a half float holds, its denormals included, or over a part of that."""
+    exponents = np.random.default_rng(1).uniform(np.log(least), np.log(most), (16, 32, 3))
     return np.exp(exponents).astype(np.float32)
 
 

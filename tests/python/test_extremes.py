@@ -26,6 +26,7 @@ MAPS: dict[str, NDArray[np.float32]] = {
     "constant": constant_map(1),
     "one texel": one_bright_texel(),
     "half range": half_range_map(),
+    "dim": half_range_map(most=1e-3),
     "one texel in all": np.full((1, 1, 3), 2, np.float32),
 }
 UNSCALABLE_MAPS = {"denormal": constant_map(1e-41), "brightest": one_bright_texel(1e15)}
