@@ -20,6 +20,7 @@ uniform float map_density;      // the map's sampling density is this times its 
 uniform float footprint_level;  // log2 of the moments' side, squared, over 4 pi: turns steradians into texels
 
 const float nyquist = 0.5;      // cycles per pixel: what the finest level can show
+const float largest_float = 3.4028234e38;
 
 struct Surface {
     vec3 position;  // from the eye
@@ -121,7 +122,8 @@ void main() {
     if (curvature < 0.0) image_bandwidth = nyquist;
     float mean = weights / pilot_count;
 #if defined(VARIANCE_PRINTED)
-    float variance = 4.0 * pi * pi * printed / pilot_count;
+    // Eq. 9 bounds a mirror's variance so loosely that under the brightest texels (1e15) the bound is beyond float's range.
+    float variance = min(4.0 * pi * pi * printed / pilot_count, largest_float);
 #else
     float variance = max(0.0, second / pilot_count - mean * mean);
 #endif
