@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from extreme_rows import ROUNDING, ROWS, Row, constant_map, half_range_map, luminance, not_finite, one_bright_texel
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -123,6 +123,7 @@ def test_any_combination_is_finite_counted_and_repeats(
 
 @settings(deadline=None, max_examples=40)
 @given(case=cases(tuple(MAPS)), exponent=st.integers(-20, 20))
+@example(case=Case("GGX", "dim", "sphere", 1.0, 0.7, 17, 13, {"samples": 64}), exponent=-20)
 def test_light_times_a_power_of_two(
     context: lightband.Context, materials: dict[str, lightband.Brdf], case: Case, exponent: int
 ) -> None:
