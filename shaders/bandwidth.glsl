@@ -20,6 +20,7 @@ uniform float map_density;      // the map's sampling density is this times its 
 uniform float footprint_level;  // log2 of the moments' side, squared, over 4 pi: turns steradians into texels
 
 const float nyquist = 0.5;      // cycles per pixel: what the finest level can show
+const float largest_float = 3.4028234e38;
 
 struct Surface {
     vec3 position;  // from the eye
@@ -105,7 +106,7 @@ void main() {
         // Mean square of f cos L / density over the footprint. Where the map is drawn too, its density there follows the
         // radiance; that of the light that matters is its mean square over its mean.
 #if defined(SAMPLER_COMBINED)
-        second += light.y * a.w * a.w * 2.0 * b.w / (b.w + map_density * light.y / light.x);
+        second += light.y * a.w * a.w * (2.0 * b.w / (b.w + map_density * light.y / light.x));  // b.w alone may be 1e8
 #else
         second += light.y * a.w * a.w;
 #endif
@@ -114,11 +115,15 @@ void main() {
     // All weights zero: nothing arrives, and a black pixel has no bandwidth.
     vec2 nu = weights > 0.0 ? weighted / weights : vec2(0);
     float image_bandwidth = min(nu.y * radians_per_pixel, nyquist);
+    // A mean of pilots that are all at the limit is the limit but for the rounding of its two sums, 2^-24 for each term of
+    // each, and of the conversions back and forth.
+    if (image_bandwidth > nyquist * (1.0 - float(pilot_count + 4) * 1.2e-7)) image_bandwidth = nyquist;
     // Where the surface is not known around the pixel, nothing may be interpolated.
     if (curvature < 0.0) image_bandwidth = nyquist;
     float mean = weights / pilot_count;
 #if defined(VARIANCE_PRINTED)
-    float variance = 4.0 * pi * pi * printed / pilot_count;
+    // Eq. 9 bounds a mirror's variance so loosely that under the brightest texels (1e15) the bound is beyond float's range.
+    float variance = min(4.0 * pi * pi * printed / pilot_count, largest_float);
 #else
     float variance = max(0.0, second / pilot_count - mean * mean);
 #endif

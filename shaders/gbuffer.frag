@@ -11,6 +11,9 @@ layout(location = 2) out uint out_material;
 // A shading normal that faces away at the silhouette is turned until it is seen under this cosine: what the outermost pixel
 // of a disc of 8192 pixels' radius, the largest frame, shows on average (2/3 sqrt(2 / 8192)).
 const float silhouette_cosine = 0.0104;
+// The passes that follow work out wo and the cosine again: two normalisations and a dot product apart, each of up to 2^-23.
+// Below four of those a cosine that is positive here may be 0 or negative there.
+const float least_cosine = 4.77e-7;
 
 void main() {
     vec3 wo = -normalize(from_eye);
@@ -21,7 +24,7 @@ void main() {
     if (dot(n, facet) < 0.0) n = -n;
     float cosine = dot(n, wo);
     float bent = 0.0;
-    if (!(cosine > 0.0)) {
+    if (!(cosine > least_cosine)) {
         vec3 tangent = n - cosine * wo;
         float squared = dot(tangent, tangent);
         n = squared > 0.0 ? silhouette_cosine * wo + sqrt(1.0 - silhouette_cosine * silhouette_cosine) * tangent * inversesqrt(squared) : wo;

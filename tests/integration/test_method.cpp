@@ -1,15 +1,12 @@
 // The shading integral of the renderer against a quadrature in double precision that shares no sampler with it, and the
 // statistics of its samples.
 #include "brdf_testing.h"
-#include "rendering.h"
+#include "quadrature.h"
 
 namespace lightband {
 namespace {
 
 using namespace testing;
-
-// As src/scene/brdf.h calls it, too.
-using Reflectance = std::variant<BrdfTable, Lambert, Ggx>;
 
 constexpr uint32_t side = 24;  // about 370 pixels of it see the sphere
 
@@ -34,65 +31,19 @@ const std::vector<Subject>& subjects() {
 
 // ---- The integral ------------------------------------------------------------------------------------
 
-struct Lookups {
-    Lookup lookup;
-    const char* name;
-};
-constexpr Lookups nearest = {Lookup::nearest, "nearest"}, linear = {Lookup::linear, "linear"};
-
-ShadingPoint point_at(const std::vector<float>& position, const std::vector<float>& normal, size_t pixel) {
-    const Vec3 from_eye = vector_at(position, pixel) - Vec3(eye[0], eye[1], eye[2]);
-    return {glm::normalize(vector_at(normal, pixel)), -glm::normalize(from_eye)};
-}
-
 // Deviations of 200 random pixels from the quadrature, in standard errors. If the renderer is right they are standard
 // normal but for the tails that the light's own distribution leaves: 99.73 % within 3, demanded is 99 %, and all
 // within 5. Their mean has the deviation 1 / sqrt(200): beyond three of that the renderer is biased.
 void check_against_quadrature(const Frame& frame, const Subject& subject, const RgbImage& map, const Lookups& lookups) {
     constexpr int compared = 200;
-    // The map's 64 x 32 texels are 3 x 3 cells of the quadrature each: nearest lookup is integrated without error.
-    OracleSettings settings;
-    settings.brdf_lookup = settings.environment_lookup = lookups.lookup;
-    settings.rows = 96;
-    OracleSettings finer = settings;
-    finer.rows = 192;
-
-    const std::vector<float> position = field<float>(frame, "position"), normal = field<float>(frame, "normal");
-    const std::vector<float> variance = field<float>(frame, "variance_measured");
-    const std::vector<uint32_t> samples = field<uint32_t>(frame, "sample_count");
-    const std::vector<double> rendered = luminances(frame);
-    std::vector<size_t> pixels = covered_pixels(frame);
-    assert_true(pixels.size() > compared);
-    Random random(41);
-    for (size_t i = 0; i < compared; ++i) std::swap(pixels[i], pixels[i + random.below(uint32_t(pixels.size() - i))]);
-
-    double sum = 0, largest = 0;
-    int beyond_three = 0;
-    for (size_t i = 0; i < compared; ++i) {
-        const size_t pixel = pixels[i];
-        const ShadingPoint point = point_at(position, normal, pixel);
-        const double expected = luminance(reflected_radiance(subject.expected, map, point, settings));
-        const double standard_error = std::sqrt(double(variance[pixel]) / samples[pixel]);
-        assert_true(standard_error > 0);
-        if (i < 2) {
-            const double better = luminance(reflected_radiance(subject.expected, map, point, finer));
-            check_close("the quadrature's own error", expected, better, 0.1 * standard_error);
-        }
-        const double z = (rendered[pixel] - expected) / standard_error;
-        sum += z;
-        largest = std::max(largest, std::fabs(z));
-        beyond_three += std::fabs(z) > 3;
-    }
+    const Vec3 seen_from{eye[0], eye[1], eye[2]};
+    const Deviations found = deviations(frame, {subject.expected, map, lookups, seen_from}, compared);
+    assert_int_equal(found.compared, compared);
     print_message("%s, %s: mean %.3f standard errors, largest %.2f, %d beyond three\n", subject.name, lookups.name,
-                  sum / compared, largest, beyond_three);
-    check_close("mean deviation", sum / compared, 0, 3 / std::sqrt(compared));
-    check_at_most("largest deviation", largest, 5);
-    check_at_most("pixels beyond three standard errors", beyond_three, 0.01 * compared);
-}
-
-void set_lookups(Frame& frame, const Lookups& lookups) {
-    frame.set("brdf_lookup", lookups.name);
-    frame.set("environment_lookup", lookups.name);
+                  found.mean, found.largest, found.beyond_three);
+    check_close("mean deviation", found.mean, 0, 3 / std::sqrt(compared));
+    check_at_most("largest deviation", found.largest, 5);
+    check_at_most("pixels beyond three standard errors", found.beyond_three, 0.01 * compared);
 }
 
 void reference_meets_the_quadrature(void**) {
