@@ -90,7 +90,7 @@ void main() {
     int first = (int(texelFetch(brdf_of, int(here.material)).r) * LOBE_VIEWS + view) * pilot_count;
     float frequency_limit = nyquist / radians_per_pixel;  // cycles/radian at the eye
     vec2 weighted = vec2(0);
-    float weights = 0.0, second = 0.0, printed = 0.0;
+    float weights = 0.0, second = 0.0, printed = 0.0, from_lobe = 0.0;
     for (int i = 0; i < pilot_count; ++i) {
         vec4 a = texelFetch(pilots, 2 * (first + i)), b = texelFetch(pilots, 2 * (first + i) + 1);
         if (a.w == 0.0) continue;
@@ -103,10 +103,13 @@ void main() {
         vec2 nu = reflected_bandwidth(light_bandwidth, b.y, max(curvature, 0.0), cos_outgoing, distance_to_eye);
         weighted += lambda * vec2(nu.x, min(nu.y, frequency_limit));
         weights += lambda;
-        // Mean square of f cos L / density over the footprint. Where the map is drawn too, its density there follows the
-        // radiance; that of the light that matters is its mean square over its mean.
+        // Mean square of f cos L / density over the footprint. Where the map is drawn too, the balance heuristic leaves the lobe's
+        // sampler a part; the map's density follows the radiance, and that of the light that matters is its mean square over its
+        // mean.
 #if defined(SAMPLER_COMBINED)
-        second += light.y * a.w * a.w * (2.0 * b.w / (b.w + map_density * light.y / light.x));  // b.w alone may be 1e8
+        float part = b.w / (b.w + map_density * light.y / light.x * MAP_WORTH);  // that is left to the lobe's sampler
+        second += light.y * a.w * a.w * part * part;
+        from_lobe += lambda * part;
 #else
         second += light.y * a.w * a.w;
 #endif
@@ -124,6 +127,11 @@ void main() {
 #if defined(VARIANCE_PRINTED)
     // Eq. 9 bounds a mirror's variance so loosely that under the brightest texels (1e15) the bound is beyond float's range.
     float variance = min(4.0 * pi * pi * printed / pilot_count, largest_float);
+#elif defined(SAMPLER_COMBINED)
+    // Half the samples draw each part. What the map's clusters leave of the variance of theirs is a tenth of its square or less.
+    const float cluster_variance = 0.1;
+    float lobe_mean = from_lobe / pilot_count, map_mean = mean - lobe_mean;
+    float variance = 2.0 * (max(0.0, second / pilot_count - lobe_mean * lobe_mean) + cluster_variance * map_mean * map_mean);
 #else
     float variance = max(0.0, second / pilot_count - mean * mean);
 #endif

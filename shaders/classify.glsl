@@ -1,4 +1,6 @@
 // Which pixels are shaded, and how much each deserves: a histogram from which the host plans the sample budget.
+#include "common.glsl"
+#include "decision.glsl"
 #include "parents.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -9,16 +11,20 @@ layout(binding = 1, r32f) readonly uniform image2D variances;
 layout(binding = 4) uniform sampler2D bandwidth;
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
+uniform uint witnesses;  // how many of 2^32 pixels that may be interpolated are shaded all the same
+uniform uint seed;
 #endif
-layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;  // 0: nothing, 1: interpolate, 2 + bin: shade
+layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;
+layout(binding = 3, r32ui) readonly uniform uimage2D sample_counts;  // of former rounds
 layout(binding = 0, std430) buffer Counts {
     uint covered, bent, saturated, unused;
-    uint histogram[];  // BRDF slot * BINS + bin
+    uint histogram[];  // (BRDF slot * 2 + whether a former round shaded it) * BINS + bin
 } counts;
 
-void shade(ivec2 at, uint material, int bin) {
-    imageStore(decisions, at, uvec4(2 + bin));
-    atomicAdd(counts.histogram[texelFetch(brdf_of, int(material)).r * BINS + bin], 1u);
+void shade(ivec2 at, uint material, int bin, bool former, bool witness) {
+    imageStore(decisions, at, uvec4(first_bin + uint(bin) | (witness ? witness_bit : 0u)));
+    uint slot = texelFetch(brdf_of, int(material)).r;
+    atomicAdd(counts.histogram[(slot * 2u + uint(former)) * BINS + bin], 1u);
 }
 
 #if !defined(SHADE_ALL)
@@ -70,13 +76,14 @@ void main() {
     if (any(greaterThanEqual(at, textureSize(materials, 0)))) return;
     uint material = texelFetch(materials, at, 0).r;
     if (material == 0u) {
-        imageStore(decisions, at, uvec4(0));
+        imageStore(decisions, at, uvec4(nothing_seen));
         return;
     }
+    bool former = imageLoad(sample_counts, at).r > 0u;
     atomicAdd(counts.covered, 1u);
     if (texelFetch(normals, at, 0).w > 0.0) atomicAdd(counts.bent, 1u);
 #if defined(SHADE_ALL)
-    shade(at, material, BINS / 2);
+    shade(at, material, BINS / 2, former, false);
 #else
     uint own = imageLoad(levels, at).r;
     if (texelFetch(bandwidth, at, 0).b >= 0.5) atomicAdd(counts.saturated, 1u);
@@ -84,11 +91,12 @@ void main() {
     int least;
     float variance;
     around(at, level, least, variance);
-    bool interpolate = false;
-    if (level < coarsest_level && least > level) interpolate = has_sound_parents(at, level, float(own));
-    if (interpolate)
-        imageStore(decisions, at, uvec4(1));
+    bool chosen = hash(uint(at.y) << 16 | uint(at.x) ^ hash(seed)) < witnesses;
+    bool interpolate = level < coarsest_level && least > level && (chosen || !former);
+    if (interpolate) interpolate = has_sound_parents(at, level, float(own));
+    if (interpolate && !chosen)
+        imageStore(decisions, at, uvec4(interpolate_it));
     else
-        shade(at, material, share(variance, min(level, int(own))));
+        shade(at, material, share(variance, min(level, int(own))), former, interpolate);
 #endif
 }

@@ -2,6 +2,17 @@
 // trilinear lookup), LOBE_LAMBERT or LOBE_GGX. Local frame, wo at azimuth 0. The double-precision originals are
 // src/sampling/lobe_sampler.cpp and src/scene/brdf.cpp.
 
+int lobe_view(float cos_outgoing) { return min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1); }
+
+layout(binding = 12) uniform samplerBuffer lobe_importances;  // src/sampling/lobe_sampler.h, LobeImportance
+
+// Mean luminance of f cos(theta_i) around a direction above the horizon.
+float lobe_importance(int view, vec3 wi) {
+    vec2 p = wi.xy / (abs(wi.x) + abs(wi.y) + wi.z);
+    ivec2 cell = min(ivec2((0.5 * vec2(p.x + p.y, p.x - p.y) + 0.5) * IMPORTANCE_SIDE), IMPORTANCE_SIDE - 1);
+    return texelFetch(lobe_importances, (view * IMPORTANCE_SIDE + cell.y) * IMPORTANCE_SIDE + cell.x).r;
+}
+
 #if defined(LOBE_TABLE)
 
 layout(binding = 2) uniform samplerBuffer brdf_cells;     // RGB / table_scale, and 1 where measured
@@ -37,8 +48,6 @@ vec3 table_value(float x, float theta_diff, float phi_diff) {
     return texelFetch(brdf_cells, (h * diff_cells + d) * phi_cells + p).rgb;
 }
 #endif
-
-int lobe_view(float cos_outgoing) { return min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1); }
 
 // f cos(theta_i) for a half vector of known x and angle to wo.
 vec3 lobe_value(vec3 wi, vec3 h, float x, float oh) {
@@ -102,8 +111,6 @@ vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
 
 uniform vec3 albedo;
 
-int lobe_view(float cos_outgoing) { return 0; }
-
 bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
     float r = sqrt(u.x), phi = 2.0 * pi * u.y;
     wi = vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
@@ -121,8 +128,6 @@ vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
 
 uniform float alpha;
 uniform vec3 f0;
-
-int lobe_view(float cos_outgoing) { return 0; }
 
 vec3 fresnel(float oh) {
     float c = 1.0 - oh, c2 = c * c;

@@ -10,7 +10,8 @@ layout(binding = 0) uniform sampler2D prediction;
 layout(binding = 1) uniform sampler2D bandwidth;
 layout(binding = 2) uniform usampler2D materials;
 uniform float mean_radiance;  // of the covered pixels
-uniform float bandwidth_scale;
+layout(binding = 3) uniform usamplerBuffer brdf_of;  // instance number + 1 -> BRDF slot
+layout(binding = 4) uniform samplerBuffer scales;    // BRDF slot -> factor on its bandwidth
 uniform int coarsest_level;
 #endif
 layout(binding = 0, r8ui) uniform uimage2D levels;
@@ -22,9 +23,9 @@ uniform int row;        // where this level starts
 #if defined(FIRST_LEVEL)
 // Nyquist: spacing <= 1 / (2 b), src/bandwidth/transport.h. A saturated bandwidth may be any number above what pixels can
 // show, and no scale makes it small.
-uint shading_level(float b) {
+uint shading_level(float b, float scale) {
     if (b >= 0.5) return 0u;
-    float scaled = bandwidth_scale * b;
+    float scaled = scale * b;
     return scaled > 0.0 ? uint(clamp(floor(log2(0.5 / scaled)), 0.0, float(coarsest_level))) : uint(coarsest_level);
 }
 #endif
@@ -33,8 +34,12 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
 #if defined(FIRST_LEVEL)
     if (any(greaterThanEqual(at, finer_size))) return;
-    bool covered = texelFetch(materials, at, 0).r != 0u;
-    imageStore(levels, at, uvec4(covered ? shading_level(texelFetch(bandwidth, at, 0).b) : 255u));  // nothing seen: no constraint
+    uint material = texelFetch(materials, at, 0).r, level = 255u;  // nothing seen: no constraint
+    if (material != 0u) {
+        float scale = texelFetch(scales, int(texelFetch(brdf_of, int(material)).r)).r;
+        level = shading_level(texelFetch(bandwidth, at, 0).b, scale);
+    }
+    imageStore(levels, at, uvec4(level));
     imageStore(variances, at, vec4(relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance)));
 #else
     ivec2 size = (finer_size + 1) / 2;

@@ -1,20 +1,20 @@
 // Compacts the pixels to shade into one list, ordered by BRDF and then by falling sample count, so that neighbouring lanes run
 // equally long.
+#include "decision.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform usampler2D decisions;
 layout(binding = 1) uniform usampler2D materials;
 layout(binding = 2) uniform usamplerBuffer brdf_of;
-layout(binding = 0, std430) buffer Cursors { uint cursors[]; };  // BRDF slot * BINS + bin: next free place
+layout(binding = 0, std430) buffer Cursors { uint cursors[]; };  // next free place; index as in classify.glsl
 layout(binding = 1, std430) writeonly buffer Entries { uint entries[]; };
-layout(binding = 0, r32ui) writeonly uniform uimage2D sample_counts;
+layout(binding = 0, r32ui) readonly uniform uimage2D sample_counts;
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, textureSize(decisions, 0)))) return;
-    imageStore(sample_counts, at, uvec4(0));
     uint decision = texelFetch(decisions, at, 0).r;
-    if (decision < 2u) return;
-    uint slot = texelFetch(brdf_of, int(texelFetch(materials, at, 0).r)).r;
-    entries[atomicAdd(cursors[slot * BINS + decision - 2u], 1u)] = uint(at.y) << 16 | uint(at.x);
+    if (!is_shaded(decision)) return;
+    uint slot = texelFetch(brdf_of, int(texelFetch(materials, at, 0).r)).r, former = uint(imageLoad(sample_counts, at).r > 0u);
+    entries[atomicAdd(cursors[(slot * 2u + former) * BINS + bin_of(decision)], 1u)] = uint(at.y) << 16 | uint(at.x);
 }

@@ -1,5 +1,7 @@
-// The shading integral (eq. 2) of the listed pixels: one invocation a pixel, one part of its samples a dispatch.
+// The shading integral (eq. 2) of the listed pixels: one invocation a pixel, one part of its samples a dispatch. The samples form
+// two independent replicates, drawn alike; their spread says how well the mean is known.
 #include "common.glsl"
+#include "decision.glsl"
 #include "lobe.glsl"
 layout(local_size_x = 64) in;
 
@@ -12,14 +14,17 @@ layout(binding = 7) uniform usampler2D decisions;
 layout(binding = 8) uniform usamplerBuffer sequence;  // a (0,2)-sequence, 32 bits a coordinate
 #endif
 #if defined(SAMPLER_COMBINED)
-layout(binding = 10) uniform samplerBuffer map_points;  // src/sampling/map_sampler.h: two vec4 each
+// src/sampling/map_sampler.h, MapPoint and MapCluster: two vec4 each.
+layout(binding = 10) uniform samplerBuffer map_points;
+layout(binding = 11) uniform samplerBuffer map_clusters;
 #endif
 layout(binding = 0, rgba32f) uniform image2D radiances;      // mean of RGB; mean of squared luminance
 layout(binding = 1, r32ui) uniform uimage2D sample_counts;   // samples that went into them
+layout(binding = 2, rg32f) uniform image2D spreads;          // half the difference of the replicates' luminances
 uniform uint first, count;                                   // part of the list
 uniform uint samples[BINS];                                  // for each bin
-uniform uint part;                                           // samples before this part
 uniform uint seed;
+uniform uint spared;  // a pixel that lacks no more than 2^-spared of what it has goes without: so few would not be stratified
 
 // Radiance, and the density (per steradian) with which the map's sampler draws the direction.
 vec4 light_from(vec3 direction) {
@@ -32,39 +37,86 @@ vec4 light_from(vec3 direction) {
 #endif
 }
 
-void main() {
-    if (gl_GlobalInvocationID.x >= count) return;
-    uint entry = texelFetch(entries, int(first + gl_GlobalInvocationID.x)).r;
-    ivec2 at = ivec2(entry & 0xffffu, entry >> 16);
-    uint wanted = samples[texelFetch(decisions, at, 0).r - 2u];
-    if (wanted <= part) return;
-    uint n = min(wanted - part, uint(PART_SAMPLES));
+struct Pixel {
+    mat3 frame;  // columns: the local frame in world space
+    vec3 wo;     // local
+    int view;    // of the lobe's tables
+};
 
+Pixel pixel_at(ivec2 at) {
     vec3 normal = texelFetch(normals, at, 0).xyz;
     vec3 wo_world = -normalize(texelFetch(positions, at, 0).xyz);
-    mat3 frame = local_frame(normal, wo_world);
     float cosine = min(dot(normal, wo_world), 1.0);
-    vec3 wo = vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine);
-    int view = lobe_view(cosine);
+    return Pixel(local_frame(normal, wo_world), vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine), lobe_view(cosine));
+}
 
-    uint state = hash(entry ^ hash(seed ^ hash(part)));
+vec4 with_square(vec3 value) {
+    float l = luminance(value);
+    return vec4(value, l * l);
+}
+
+#if defined(SAMPLER_COMBINED)
+
+// The map's clusters by what they send to this pixel's eye, as far as the lobe's sampler leaves it to the map's: probabilities.
+float cluster_probability[MAP_CLUSTERS];
+
+// Part of the samples spread evenly over the clusters above the horizon, so that none that may send light has probability 0.
+const float even_part = 0.1;
+
+void find_clusters(Pixel pixel) {
+    float sum = 0.0, seen = 0.0, reflected = 0.0;
+    for (uint k = 0u; k < MAP_CLUSTERS; ++k) {
+        vec4 cluster = texelFetch(map_clusters, 2 * int(k));
+        float density = texelFetch(map_clusters, 2 * int(k) + 1).r;
+        vec3 wi = cluster.xyz * pixel.frame;
+        float value = -1.0;  // wholly below the horizon
+        if (wi.z > -cluster.w || cluster.w >= 1.0) {
+            // Where the horizon cuts it, the middle of what is above it.
+            if (wi.z < cluster.w) wi = normalize(vec3(wi.xy, 0.5 * (wi.z + cluster.w)));
+            float f = lobe_importance(pixel.view, wi);
+            value = f;
+            seen += 1.0;
+            reflected += f / density;
+        }
+        cluster_probability[k] = value;
+    }
+    // The lobe's own density is f over its albedo; f / density summed is 64 times that albedo.
+    float albedo = reflected / float(MAP_CLUSTERS);
+    for (uint k = 0u; k < MAP_CLUSTERS; ++k) {
+        float f = cluster_probability[k];
+        if (f <= 0.0) continue;
+        float density = texelFetch(map_clusters, 2 * int(k) + 1).r;
+        float value = f * MAP_WORTH * density / (f / albedo + MAP_WORTH * density);
+        cluster_probability[k] = value;
+        sum += value;
+    }
+    for (uint k = 0u; k < MAP_CLUSTERS; ++k) {
+        float value = cluster_probability[k];
+        cluster_probability[k] = value < 0.0 ? 0.0 : mix(sum > 0.0 ? value / sum : 1.0 / seen, 1.0 / seen, even_part);
+    }
+}
+
+#endif
+
+// Sum over n > 0 samples of their values (RGB) and of their squared luminances. which: 0 or 1; the two replicates share nothing.
+vec4 replicate(Pixel pixel, uint n, uint which, inout uint state) {
+    vec4 sum = vec4(0);
 #if !defined(SEQUENCE_RANDOM)
     // A digital shift of each pixel's own keeps the sequence's stratification and makes the mean unbiased.
     uvec2 shift = uvec2(next_random(state), next_random(state));
 #endif
-    vec4 sum = vec4(0);
-    uint drawn = 0u;
 #if defined(SAMPLER_COMBINED)
-    // Half the samples from the map: an aligned block, of its own for each pixel, of the points drawn beforehand.
-    uint from_map = n / 2u, from_lobe = n - from_map;
-    uint block = from_map > 1u ? 2u << findMSB(from_map - 1u) : 1u;
-    int map_start = int(next_random(state) & (MAP_POINTS - block));
-    float share = float(n) / float(from_lobe), map_share = float(n) / float(max(from_map, 1u));
-    float map_odds = float(from_map) / float(from_lobe);  // samples of the map for each of the lobe
+    // Half the samples from the map: of each cluster's points, drawn beforehand, the replicate's half in an order of its own for
+    // each pixel. Steps of equal probability choose the clusters.
+    const uint cluster_points = MAP_POINTS / MAP_CLUSTERS;
+    uint from_map = (n + (next_random(state) >> 31)) / 2u, from_lobe = n - from_map;  // half of an odd number by chance
+    uint turn = next_random(state), cluster = 0u, drawn_here = 0u;
+    const float share = 2.0;  // of all samples for each of one sampler
+    float offset = unit(next_random(state)), below = cluster_probability[0];
 #else
-    const uint from_lobe = n;
+    const uint from_lobe = n, from_map = 0u;
 #endif
-    for (uint i = 0u; i < from_lobe; ++i) {
+    for (uint i = 0u; i < max(from_lobe, from_map); ++i) {
 #if defined(SEQUENCE_RANDOM)
         vec2 u = vec2(unit(next_random(state)), unit(next_random(state)));
 #else
@@ -73,36 +125,72 @@ void main() {
 #endif
         vec3 wi, weight;
         vec2 density;
-        if (sample_lobe(wo, view, u, wi, weight, density)) {
-            vec4 light = light_from(frame * wi);
+        if (i < from_lobe && sample_lobe(pixel.wo, pixel.view, u, wi, weight, density)) {
+            vec4 light = light_from(pixel.frame * wi);
 #if defined(SAMPLER_COMBINED)
             // Balance heuristic (Veach 1997).
-            weight *= share * density.x / (density.x + map_odds * light.a * density.y);
+            weight *= share * density.x / (density.x + MAP_WORTH * light.a * density.y);
 #endif
-            vec3 value = weight * light.rgb;
-            float l = luminance(value);
-            sum += vec4(value, l * l);
+            sum += with_square(weight * light.rgb);
         }
-        ++drawn;
 #if defined(SAMPLER_COMBINED)
         if (i < from_map) {
-            vec4 point = texelFetch(map_points, 2 * (map_start + int(i)));
-            wi = point.xyz * frame;
-            if (wi.z > 0.0) {
-                vec4 light = texelFetch(map_points, 2 * (map_start + int(i)) + 1);
-                vec3 value = evaluate_lobe(wo, view, wi, density) * light.rgb;
-                float odds = map_odds * light.a * density.y;
-                value *= map_share * point.w * odds / (density.x + odds);
-                float l = luminance(value);
-                sum += vec4(value, l * l);
+            float place = (float(i) + offset) / float(from_map);
+            while (below <= place && cluster + 1u < MAP_CLUSTERS) {
+                below += cluster_probability[++cluster];
+                drawn_here = 0u;
+                turn = next_random(state);
             }
-            ++drawn;
+            // One sample in each of as many compact parts as samples are expected here; anywhere in that part.
+            uint parts = 1u << uint(max(ceil(log2(cluster_probability[cluster] * float(from_map))), 0.0));
+            uint within = (drawn_here++ ^ turn) & (parts - 1u) | next_random(state) & ~(parts - 1u);
+            within = within & (cluster_points / 2u - 1u) | which * (cluster_points / 2u);
+            int index = 2 * int(cluster * cluster_points + within);
+            vec4 point = texelFetch(map_points, index);
+            wi = point.xyz * pixel.frame;
+            if (wi.z > 0.0) {
+                vec4 light = texelFetch(map_points, index + 1);
+                vec3 value = evaluate_lobe(pixel.wo, pixel.view, wi, density) * light.rgb;
+                float odds = MAP_WORTH * light.a * density.y;
+                float chance = cluster_probability[cluster] * float(MAP_CLUSTERS);
+                sum += with_square(value * (share * point.w / chance * odds / (density.x + odds)));
+            }
         }
 #endif
     }
-    uint before = part == 0u ? 0u : imageLoad(sample_counts, at).r;
-    vec4 former = before == 0u ? vec4(0) : imageLoad(radiances, at);
-    uint total = before + drawn;
-    imageStore(radiances, at, (former * float(before) + sum) / float(total));
+    return sum;
+}
+
+void main() {
+    if (gl_GlobalInvocationID.x >= count) return;
+    uint entry = texelFetch(entries, int(first + gl_GlobalInvocationID.x)).r;
+    ivec2 at = ivec2(entry & 0xffffu, entry >> 16);
+    uint had = imageLoad(sample_counts, at).r, wanted = samples[bin_of(texelFetch(decisions, at, 0).r)];
+    if (wanted <= had + (had >> spared)) return;
+    uint total = min(wanted, had + uint(PART_SAMPLES));
+    // The first replicate holds the odd sample. One sample alone has no spread; it is taken to be as uncertain as it is bright.
+    uvec2 had_each = uvec2((had + 1u) / 2u, had / 2u), each = uvec2((total + 1u) / 2u, total / 2u);
+
+    vec4 former = had > 0u ? imageLoad(radiances, at) : vec4(0);
+    float former_spread = had > 1u ? imageLoad(spreads, at).r : 0.0, former_luminance = luminance(former.rgb);
+    vec2 luminances = vec2(had_each) * (had > 1u ? former_luminance + former_spread * vec2(2, -2) * vec2(had_each.yx) / float(had)
+                                                 : vec2(former_luminance));
+    Pixel pixel = pixel_at(at);
+#if defined(SAMPLER_COMBINED)
+    find_clusters(pixel);
+#endif
+    uint state = hash(entry ^ hash(seed ^ hash(had)));
+    vec4 sum = former * float(had);
+    for (uint which = 0u; which < 2u; ++which) {
+        uint n = each[which] - had_each[which];
+        if (n == 0u) continue;
+        vec4 drawn = replicate(pixel, n, which, state);
+        luminances[which] += luminance(drawn.rgb);
+        sum += drawn;
+    }
+    vec4 mean = sum / float(total);
+    luminances /= vec2(max(each, uvec2(1)));
+    imageStore(radiances, at, mean);
+    imageStore(spreads, at, vec4(total > 1u ? 0.5 * (luminances.x - luminances.y) : luminance(mean.rgb), 0, 0, 0));
     imageStore(sample_counts, at, uvec4(total));
 }

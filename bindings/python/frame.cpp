@@ -32,6 +32,7 @@ constexpr Field fields[] = {
     {"level", "uint8, height x width: log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)."},
     {"shaded", "uint8, height x width: 1 where the integral was computed; 0: interpolated, or nothing seen."},
     {"sample_count", "uint32, height x width: light samples drawn."},
+    {"error", "float32, height x width: relative error expected here, as the frame estimates it."},
     {"variance_predicted",
      "float32, height x width: radiance^2, predicted variance of one light sample's luminance (eq. 9)."},
     {"variance_measured",
@@ -135,7 +136,8 @@ py::object stats(const Frame& self) {
     return py::module_::import("lightband._records")
         .attr("FrameStats")(stats.width, stats.height, stats.frames, stats.covered_pixels, stats.shaded_pixels,
                             stats.samples, stats.saturated_pixels, stats.bent_normals, stats.device_bytes,
-                            stats.milliseconds, stats.bandwidth_milliseconds, stats.shading_milliseconds);
+                            stats.milliseconds, stats.bandwidth_milliseconds, stats.shading_milliseconds, stats.error,
+                            stats.noise_error, stats.interpolation_error, stats.capped_pixels, stats.rounds);
 }
 
 py::str plan(const Frame& self) {

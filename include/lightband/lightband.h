@@ -301,9 +301,17 @@ typedef struct lb_frame_stats {
     double milliseconds;         /* whole render call */
     double bandwidth_milliseconds; /* of it: everything that prediction adds (bandwidth, pyramids, lists) */
     double shading_milliseconds;   /* of it: the shading integral */
+    double error;                  /* relative error of the frame, as the frame itself estimates it (docs/conventions.md):
+                                      root of the squares of the two below. The field "error" holds it pixel by pixel */
+    double noise_error;            /* part of it that more samples would lessen */
+    double interpolation_error;    /* part of it that finer levels would lessen */
+    uint64_t capped_pixels;        /* pixels whose samples reached the setting "max_samples"; they may have deserved more */
+    uint32_t rounds;               /* of shading: 1 where neither an error nor a time was asked for */
+    uint32_t reserved;             /* 0 */
 } lb_frame_stats;
 
-#define LB_FRAME_STATS_INIT { sizeof(lb_frame_stats), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0 }
+#define LB_FRAME_STATS_INIT \
+    { sizeof(lb_frame_stats), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0 }
 
 /* LB_ERROR_INVALID_STATE before the first successful render. */
 LB_API lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats);
@@ -346,6 +354,8 @@ typedef struct lb_buffer_view {
  *   level               uint8   [H][W]     log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)
  *   shaded              uint8   [H][W]     1: the integral was computed here; 0: interpolated or nothing seen
  *   sample_count        uint32  [H][W]     light samples drawn here
+ *   error               float32 [H][W]     relative error expected here, as the frame estimates it: of L + 0.01 mean L;
+ *                                          its root mean square over the covered pixels is lb_frame_stats.error
  *   variance_predicted  float32 [H][W]     radiance^2: predicted variance of one light sample's luminance (eq. 9)
  *   variance_measured   float32 [H][W]     radiance^2: the same, from the samples drawn here; 0 where fewer than two
  *   level_pyramid       uint8   [R][W]     the levels' min pyramid: level 0 in rows 0 .. H-1, level 1 (of half

@@ -6,31 +6,58 @@
 namespace lightband {
 namespace {
 
-uint32_t samples_of(uint32_t bin, double scale, uint32_t least, uint32_t most) {
-    const double wanted = scale * std::ldexp(1.0, int(bin) - int(budget_bins) / 2);
-    return uint32_t(std::clamp(std::round(wanted), double(least), double(most)));
+double share_of(uint32_t bin) { return std::ldexp(1.0, int(bin) - int(budget_bins) / 2); }
+
+Budget budget_at(double scale, uint32_t least, uint32_t most) {
+    Budget budget(budget_bins);
+    for (uint32_t bin = 0; bin < budget_bins; ++bin)
+        budget[bin] = uint32_t(std::clamp(std::round(scale * share_of(bin)), double(least), double(most)));
+    return budget;
+}
+
+// The largest scale at which a condition that holds for small scales still holds: bisection over its logarithm, to far below
+// the rounding of a sample.
+template <class Condition>
+double largest_scale(Condition holds) {
+    double low = -64, high = 64;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (holds(std::exp2(middle)) ? low : high) = middle;
+    }
+    return std::exp2(low);
 }
 
 }  // namespace
 
-std::vector<uint32_t> plan_budget(const std::vector<uint64_t>& histogram, double mean, uint32_t most) {
+Budget plan_mean(const Histogram& histogram, double mean, uint32_t most) {
     double pixels = 0;
     for (uint64_t count : histogram) pixels += double(count);
     const uint32_t least = uint32_t(std::clamp(std::floor(mean), 1.0, double(std::min(least_samples, most))));
-    const auto total = [&](double scale) {
+    const double scale = largest_scale([&](double candidate) {
+        const Budget budget = budget_at(candidate, least, most);
         double sum = 0;
-        for (uint32_t bin = 0; bin < budget_bins; ++bin) sum += double(histogram[bin]) * samples_of(bin, scale, least, most);
-        return sum;
-    };
-    // The total grows with the scale: bisection over its logarithm, to far below the rounding of a sample.
-    double low = -64, high = 64;
-    for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (total(std::exp2(middle)) <= mean * pixels ? low : high) = middle;
+        for (uint32_t bin = 0; bin < budget_bins; ++bin) sum += double(histogram[bin]) * budget[bin];
+        return sum <= mean * pixels;
+    });
+    return budget_at(scale, least, most);
+}
+
+double predicted_noise(const Histogram& histogram, const Budget& budget, Allocation allocation) {
+    double sum = 0;
+    for (uint32_t bin = 0; bin < budget_bins; ++bin) {
+        const double share = share_of(bin);
+        sum += double(histogram[bin]) * (allocation == Allocation::least_error ? share * share : share) / budget[bin];
     }
-    std::vector<uint32_t> samples(budget_bins);
-    for (uint32_t bin = 0; bin < budget_bins; ++bin) samples[bin] = samples_of(bin, std::exp2(low), least, most);
-    return samples;
+    return sum;
+}
+
+Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Allocation allocation) {
+    const uint32_t least = std::min(least_samples, most);
+    const double scale = largest_scale([&](double candidate) {
+        return predicted_noise(histogram, budget_at(candidate, least, most), allocation) > noise;
+    });
+    // The next sample up, where the noise is below the goal.
+    return budget_at(scale * (1 + 1e-9), least, most);
 }
 
 }  // namespace lightband

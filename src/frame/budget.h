@@ -8,11 +8,24 @@ namespace lightband {
 
 // Pixels are binned by log2 of the share of samples that they deserve: bin b deserves 2^(b - bins / 2).
 constexpr uint32_t budget_bins = 64;
-// Fewer points than this would not stratify both dimensions of the (0,2)-sequence.
+// Fewer would leave one of the two samplers of one of the two replicates without a point.
 constexpr uint32_t least_samples = 4;
 
-// histogram: pixels per bin. Returns samples per pixel of each bin, in proportion to the shares, within
-// [least_samples, most] (or [1, ...] where mean is smaller), with the mean over all pixels as near to `mean` as rounding lets.
-std::vector<uint32_t> plan_budget(const std::vector<uint64_t>& histogram, double mean, uint32_t most);
+using Histogram = std::vector<uint64_t>;  // pixels per bin
+using Budget = std::vector<uint32_t>;     // samples per pixel of each bin
+
+// In proportion to the shares, within [least_samples, most] (or [1, ...] where mean is smaller), with the mean over all pixels as
+// near to `mean` as rounding lets.
+Budget plan_mean(const Histogram& histogram, double mean, uint32_t most);
+
+// What a share says of a pixel: under least_error the squared error that it leaves in the frame, times its samples, is the
+// share's square; under constant_variance it is the share itself.
+enum class Allocation { least_error, constant_variance };
+
+// Sum over the frame's pixels of their squared relative error by noise, as predicted.
+double predicted_noise(const Histogram& histogram, const Budget& budget, Allocation allocation);
+
+// The fewest samples whose predicted_noise is at most `noise`, or as many as `most` lets.
+Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Allocation allocation);
 
 }  // namespace lightband

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "frame/decision.h"
 #include "frame/result.h"
 
 namespace lightband {
@@ -31,11 +32,40 @@ double luminance_of(const float* rgb) { return luminance(Vec3(rgb[0], rgb[1], rg
 
 }  // namespace
 
+RoundPixels Frame::Result::read_round() const {
+    const size_t count = size_t(stats.width) * stats.height;
+    RoundPixels pixels;
+    pixels.radiance = read_floats(shading.radiance, GL_RGBA, count, 4);
+    pixels.spread = read_floats(shading.spread, GL_RG, count, 2);
+    if (prediction) pixels.expected = read_floats(prediction->prediction, GL_GREEN, count, 1);
+    pixels.sample_count.resize(count);
+    shading.sample_count.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, count * sizeof(uint32_t), pixels.sample_count.data());
+    pixels.decision = read_bytes(shading.decision, count);
+    pixels.material = read_bytes(gbuffer.material, count);
+    return pixels;
+}
+
+// How interpolation's squared error is spread over the pixels, up to a factor: linear interpolation errs by the square of
+// bandwidth times spacing. A pixel's spacing is that of its lattice's parents.
+std::vector<float> Frame::interpolation_shape() const {
+    const Result& r = result();
+    std::vector<float> shape(pixels());
+    if (!r.prediction) return shape;
+    const std::vector<float> bandwidth = read_floats(r.prediction->bandwidth, GL_BLUE, pixels(), 1);
+    for (size_t i = 0; i < shape.size(); ++i) {
+        const uint32_t bits = uint32_t(i % width_) | uint32_t(i / width_);
+        const int level = bits == 0 ? 0 : int(std::log2(double(bits & (~bits + 1))));
+        const double cycles = bandwidth[i] * std::ldexp(1.0, level + 1);  // between two parents
+        shape[i] = float(std::pow(cycles, 4));
+    }
+    return shape;
+}
+
 const std::vector<Frame::FieldName>& Frame::field_names() {
     static const std::vector<FieldName> names = {
         {"color", false}, {"depth", false}, {"position", false}, {"normal", false}, {"curvature", true},
         {"material", false}, {"bandwidth_spatial", true}, {"bandwidth_angular", true}, {"bandwidth_image", true},
-        {"level", true}, {"shaded", false}, {"sample_count", false}, {"variance_predicted", true},
+        {"level", true}, {"shaded", false}, {"sample_count", false}, {"error", false}, {"variance_predicted", true},
         {"variance_measured", false}, {"level_pyramid", true}, {"variance_pyramid", true}};
     return names;
 }
@@ -97,7 +127,7 @@ HostArray Frame::field(const std::string& name) const {
     }
     if (name == "shaded") {
         std::vector<uint8_t> decisions = read_bytes(r.shading.decision, pixels);
-        for (uint8_t& decision : decisions) decision = decision >= 2;
+        for (uint8_t& decision : decisions) decision = is_shaded(decision);
         return HostArray::of(LB_TYPE_UINT8, flat, "", std::move(decisions));
     }
     if (name == "variance_predicted")
@@ -109,6 +139,7 @@ HostArray Frame::field(const std::string& name) const {
         return HostArray::of(LB_TYPE_FLOAT32, {r.prediction->pyramid_height, width_}, "",
                              read_floats(r.prediction->variances, GL_RED, size_t(width_) * r.prediction->pyramid_height, 1));
 
+    if (name == "error") return scalar(pixel_errors(r.read_round(), r.estimate, r.slot_of, interpolation_shape()), "");
     std::vector<uint32_t> counts(pixels);
     r.shading.sample_count.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels * sizeof(uint32_t), counts.data());
     if (name == "sample_count") return HostArray::of(LB_TYPE_UINT32, flat, "sample", std::move(counts));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "frame/result.h"
 #include "passes/gbuffer.h"
@@ -30,111 +31,187 @@ const Frame::Result& Frame::result() const {
     return *result_;
 }
 
+// What the steps of one render call share.
+struct Frame::Job {
+    const Scene& scene;
+    const Progress& progress;
+    const std::shared_ptr<Result> result;
+    const Scene::Slots slots;
+    const passes::SlotTable slot_of;
+    passes::Counts counts;
+    passes::ShadingList list;    // of the last round
+    uint64_t samples = 0;        // drawn so far
+    double done = 0, part = 1;   // of the progress: before this round, and the round's own
+
+    void report(double fraction) const {
+        if (progress && progress(std::min(done + part * fraction, 1.0)))
+            throw Error(LB_ERROR_CANCELLED, "the progress callback cancelled the frame");
+    }
+};
+
 void Frame::render(const Scene& scene, const Progress& progress) {
     if (scene.device() != device_) throw Error(LB_ERROR_INVALID_ARGUMENT, "scene belongs to another context than frame");
     if (!scene.light) throw Error(LB_ERROR_INVALID_STATE, "the scene has no environment");
     if (!scene.camera) throw Error(LB_ERROR_INVALID_STATE, "the scene has no camera");
+    const bool controlled = settings.target_error() > 0 || settings.time_budget() > 0;
+    if (controlled && settings.accumulate() > 1)
+        throw Error(LB_ERROR_INVALID_STATE, text("accumulate is ", settings.accumulate(),
+                                                 "; a frame with a target_error or a time_budget needs 1"));
     const gl::Functions& gl = device_->gl();
     if (sequence_ == nullptr) sequence_ = std::make_unique<passes::SequenceTable>(gl);
-    const auto next = std::make_shared<Result>(gl, width_, height_);
-    next->settings = settings;
-    next->eye = scene.camera->eye;
-    const uint64_t pixels = uint64_t(width_) * height_;
-    if (progress && progress(0.0)) throw Error(LB_ERROR_CANCELLED, "the progress callback cancelled the frame");
-
-    passes::gbuffer(*device_, scene, width_, height_, next->gbuffer);
-    next->plan.finished("gbuffer", text(scene.instances().size(), " instances"), next->gbuffer.bytes(), pixels, "pixels");
-
     const Scene::Slots slots = scene.slots();
-    const passes::SlotTable slot_of = passes::slot_table(gl, slots);
-    passes::Counts counts;
-    predict(scene, next.get(), &counts, slot_of, slots);
-    const passes::ShadingList list =
-        passes::shading_list(*device_, slot_of, counts, settings, width_, height_, next->gbuffer, next->shading);
-    next->plan.finished("list", "pixels to shade, longest first", list.entries.bytes(), pixels, "pixels");
+    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots), {}, {}};
+    Result& next = *job.result;
+    next.settings = settings;
+    next.stats.width = width_;
+    next.stats.height = height_;
+    next.eye = scene.camera->eye;
+    next.slot_of = slots.of_instance;
+    job.report(0);
 
-    shade(scene, next.get(), list, slots, progress);
-    device_->check("rendering a frame");
-
-    lb_frame_stats& stats = next->stats;
-    stats.width = width_;
-    stats.height = height_;
-    stats.frames = settings.accumulate();
-    stats.covered_pixels = counts.covered;
-    stats.shaded_pixels = list.pixels;
-    stats.saturated_pixels = counts.saturated;
-    stats.bent_normals = counts.bent;
-    stats.device_bytes = scene.device_bytes() + next->gbuffer.bytes() + next->shading.bytes() +
-                         (next->prediction ? next->prediction->bytes() : 0) + list.entries.bytes() + sequence_->buffer.bytes();
-    stats.milliseconds = next->plan.total_milliseconds();
-    stats.bandwidth_milliseconds = next->plan.milliseconds_of({"environment", "bandwidth", "pyramids", "classify", "list"});
-    stats.shading_milliseconds = next->plan.milliseconds_of({"shade"});
-    result_ = next;
-}
-
-void Frame::predict(const Scene& scene, Result* next, passes::Counts* counts, const passes::SlotTable& slot_of,
-                    const Scene::Slots& slots) const {
-    const uint64_t pixels = uint64_t(width_) * height_;
-    const Prediction* prediction = nullptr;
-    if (settings.method() == Method::adaptive) {
-        scene.light->bandwidth(settings.band_rule());
-        for (const Material* material : slots.materials) material->pilots(settings.band_rule(), settings.pilots());
-        next->plan.finished("environment", "bandwidth of the map and the lobes; once for each", scene.light->device_bytes(), 0, "");
-
-        next->prediction.emplace(device_->gl(), width_, height_, settings.coarsest_level());
-        prediction = &*next->prediction;
-        passes::predict(*device_, scene, slots, slot_of, settings, width_, height_, next->gbuffer, *prediction);
-        next->plan.finished("bandwidth", text("eq. 5, 6 and 9 with ", settings.pilots(), " directions"),
-                            prediction->bandwidth.bytes() + prediction->prediction.bytes(), pixels, "pixels");
-        const passes::Forecast forecast = passes::forecast(*device_, next->gbuffer, *prediction, width_, height_);
-        passes::pyramids(*device_, forecast, settings, next->gbuffer, width_, height_, *prediction);
-        next->plan.finished("pyramids", text("least level and largest variance of each block, bandwidth times ",
-                                             passes::bandwidth_scale(settings, forecast)),
-                            prediction->levels.bytes() + prediction->variances.bytes(), pixels, "pixels");
-    }
-    *counts = passes::classify(*device_, *scene.camera, slot_of, slots.materials.size(), settings, width_, height_,
-                               next->gbuffer, prediction, next->shading);
-    next->plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
-                        next->shading.decision.bytes(), pixels, "pixels");
-}
-
-void Frame::shade(const Scene& scene, Result* next, const passes::ShadingList& list, const Scene::Slots& slots,
-                  const Progress& progress) {
-    const gl::Functions& gl = device_->gl();
-    const float zero[4] = {0, 0, 0, 0};
-    gl.ClearTexImage(next->shading.radiance.name(), 0, GL_RGBA, GL_FLOAT, zero);
-    const uint32_t frames = settings.accumulate();
-    std::vector<double> sum(frames > 1 ? size_t(width_) * height_ * 4 : 0);
-    std::vector<float> scratch;
-    const uint64_t all_samples = std::max<uint64_t>(list.total_samples, 1) * frames;
-    for (uint32_t frame = 0; frame < frames; ++frame) {
-        const auto drawn = [&](uint64_t samples) {
-            if (progress && progress(double(frame * list.total_samples + samples) / double(all_samples)))
-                throw Error(LB_ERROR_CANCELLED, "the progress callback cancelled the frame");
-        };
-        passes::shade(*device_, scene, slots, settings, settings.seed() + frame, *sequence_, list, next->gbuffer,
-                      next->shading, drawn);
-        next->plan.finished("shade", text(list.pixels, " pixels in ", list.parts.size(), " materials"),
-                            next->shading.radiance.bytes() + next->shading.sample_count.bytes(), list.total_samples, "samples");
-        if (next->prediction && settings.coarsest_level() > 0) {
-            passes::upsample(*device_, *scene.camera, settings, width_, height_, next->gbuffer, *next->prediction, next->shading);
-            next->plan.finished("upsample", "pixels between shaded ones", 0, uint64_t(width_) * height_, "pixels");
-        }
-        if (frames > 1) add_radiance(next->shading.radiance, &scratch, &sum);
-    }
-    for (double value : sum) next->accumulated.push_back(float(value / frames));
+    passes::gbuffer(*device_, scene, width_, height_, next.gbuffer);
+    next.plan.finished("gbuffer", text(scene.instances().size(), " instances"), next.gbuffer.bytes(), pixels(), "pixels");
+    const Forecast forecast = predict(&job);
+    rounds(&job, forecast);
+    if (settings.accumulate() > 1) accumulate(&job);
     if (settings.background()) {
-        passes::background(*device_, scene, width_, height_, next->gbuffer, next->shading);
-        next->plan.finished("background", "the map behind the meshes", 0, uint64_t(width_) * height_, "pixels");
+        passes::background(*device_, scene, width_, height_, next.gbuffer, next.shading);
+        next.plan.finished("background", "the map behind the meshes", 0, pixels(), "pixels");
     }
+    device_->check("rendering a frame");
+    finish(&job);
+    result_ = job.result;
+    job.done = job.part = 1;
+    job.report(0);
+}
+
+void Frame::finish(Job* job) const {
+    Result& next = *job->result;
+    lb_frame_stats& stats = next.stats;
+    stats.frames = settings.accumulate();
+    stats.covered_pixels = job->counts.covered;
+    const Histogram bins = job->counts.bins();
+    for (uint32_t bin = 0; bin < budget_bins; ++bin) {
+        stats.shaded_pixels += bins[bin];
+        if (settings.method() == Method::adaptive && job->list.samples[bin] >= settings.max_samples()) stats.capped_pixels += bins[bin];
+    }
+    stats.saturated_pixels = job->counts.saturated;
+    stats.bent_normals = job->counts.bent;
+    stats.samples = job->samples;
+    stats.device_bytes = job->scene.device_bytes() + next.gbuffer.bytes() + next.shading.bytes() +
+                         (next.prediction ? next.prediction->bytes() : 0) + job->list.entries.bytes() + sequence_->buffer.bytes();
+    stats.milliseconds = next.plan.total_milliseconds();
+    stats.bandwidth_milliseconds =
+        next.plan.milliseconds_of({"environment", "bandwidth", "pyramids", "classify", "list", "estimate"});
+    stats.shading_milliseconds = next.plan.milliseconds_of({"shade"});
+    stats.error = next.estimate.error();
+    stats.noise_error = std::sqrt(next.estimate.noise);
+    stats.interpolation_error = std::sqrt(next.estimate.interpolation);
+}
+
+Forecast Frame::predict(Job* job) const {
+    Result& next = *job->result;
+    if (settings.method() == Method::reference) return passes::coverage(next.gbuffer, width_, height_);
+    job->scene.light->bandwidth(settings.band_rule());
+    for (const Material* material : job->slots.materials) material->pilots(settings.band_rule(), settings.pilots());
+    next.plan.finished("environment", "bandwidth of the map and the lobes; once for each", job->scene.light->device_bytes(), 0, "");
+
+    const Prediction& prediction = next.prediction.emplace(device_->gl(), width_, height_, settings.coarsest_level());
+    passes::predict(*device_, job->scene, job->slots, job->slot_of, settings, width_, height_, next.gbuffer, prediction);
+    const Forecast forecast = passes::forecast(*device_, next.gbuffer, prediction, width_, height_);
+    next.plan.finished("bandwidth", text("eq. 5, 6 and 9 with ", settings.pilots(), " directions"),
+                       prediction.bandwidth.bytes() + prediction.prediction.bytes(), pixels(), "pixels");
+    return forecast;
+}
+
+void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
+    Result& next = *job->result;
+    const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
+    if (prediction != nullptr) {
+        passes::pyramids(*device_, forecast, job->slot_of, control->scales(), settings, next.gbuffer, width_, height_,
+                         *prediction);
+        std::string scales;
+        for (float scale : control->scales()) scales += text(" ", scale);
+        next.plan.finished("pyramids", "least level and largest variance of each block, bandwidth times" + scales,
+                           prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
+    }
+    job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), settings,
+                                   control->witnesses(), width_, height_, next.gbuffer, prediction, next.shading);
+    next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
+                       next.shading.decision.bytes(), pixels(), "pixels");
+    const Budget& budget = control->plan(job->counts.bins(), next.plan.total_milliseconds());
+    job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, width_, height_, next.gbuffer, next.shading);
+    next.plan.finished("list", "pixels to shade, longest first", job->list.entries.bytes(), pixels(), "pixels");
+}
+
+void Frame::shade(Job* job, uint32_t seed) const {
+    Result& next = *job->result;
+    const passes::ShadingList& list = job->list;
+    passes::shade(*device_, job->scene, job->slots, settings, seed, *sequence_, list, next.stats.rounds == 1, next.gbuffer, next.shading,
+                  [&](uint64_t samples) { job->report(double(samples) / double(std::max<uint64_t>(list.total_samples, 1))); });
+    next.plan.finished("shade", text(list.pixels, " pixels in ", job->slots.materials.size(), " materials"),
+                       next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
+                       list.total_samples, "samples");
+    if (!next.prediction || settings.coarsest_level() == 0) return;
+    passes::upsample(*device_, *job->scene.camera, settings, width_, height_, next.gbuffer, *next.prediction, next.shading);
+    next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, pixels(), "pixels");
+}
+
+void Frame::measure(Job* job) const {
+    Result& next = *job->result;
+    const RoundPixels pixels = next.read_round();
+    next.estimate = estimate_error(pixels, next.slot_of, job->slots.materials.size());
+    job->samples = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
+    next.plan.finished("estimate", text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
+                                        std::sqrt(next.estimate.interpolation)), 0, this->pixels(), "pixels");
+}
+
+void Frame::rounds(Job* job, const Forecast& forecast) {
+    Result& next = *job->result;
+    next.shading.clear(device_->gl());
+    Control control(settings, forecast, job->slots.materials.size(), pace_, next.plan.total_milliseconds());
+    const bool one = settings.target_error() <= 0 && settings.time_budget() <= 0;
+    RoundCost cost;
+    do {
+        ++next.stats.rounds;
+        // How many rounds will come is not known: each takes half of what is left.
+        job->part = (1 - job->done) * (one ? 1.0 / settings.accumulate() : 0.5);
+        const uint64_t drawn = job->samples;
+        const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
+        list(job, &control, forecast);
+        shade(job, settings.seed());
+        measure(job);
+        cost.samples = job->samples - drawn;
+        cost.elapsed_milliseconds = next.plan.total_milliseconds();
+        cost.shading_milliseconds = next.plan.milliseconds_of({"shade"}) - shaded;
+        cost.other_milliseconds = cost.elapsed_milliseconds - begun - cost.shading_milliseconds;
+        job->done += job->part;
+    } while (control.again(next.estimate, cost));
+    pace_.learn(cost);
+}
+
+// Further frames of other seeds on the same levels; the mean of all.
+void Frame::accumulate(Job* job) const {
+    Result& next = *job->result;
+    const uint32_t frames = settings.accumulate();
+    std::vector<double> sum(pixels() * 4);
+    std::vector<float> scratch;
+    add_radiance(next.shading.radiance, &scratch, &sum);
+    const uint64_t each = job->samples;
+    for (uint32_t frame = 1; frame < frames; ++frame) {
+        next.shading.clear(device_->gl());
+        shade(job, settings.seed() + frame);
+        add_radiance(next.shading.radiance, &scratch, &sum);
+        job->samples += each;
+        job->done += job->part;
+    }
+    for (double value : sum) next.accumulated.push_back(float(value / frames));
+    next.estimate.noise /= frames;
+    next.estimate.stratification /= frames;
 }
 
 lb_frame_stats Frame::stats() const {
-    lb_frame_stats stats = result().stats;
-    std::vector<uint32_t> counts(size_t(width_) * height_);
-    result().shading.sample_count.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, counts.size() * sizeof(uint32_t), counts.data());
-    for (uint32_t count : counts) stats.samples += uint64_t(count) * stats.frames;
-    return stats;
+    return result().stats;
 }
 
 std::string Frame::explain() const { return result().plan.text(); }

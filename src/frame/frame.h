@@ -45,16 +45,23 @@ public:
 
 private:
     struct Result;
+    struct Job;  // a render call on its way
     const Result& result() const;
-    void predict(const Scene& scene, Result* result, passes::Counts* counts, const passes::SlotTable& slot_of,
-                 const Scene::Slots& slots) const;
-    void shade(const Scene& scene, Result* result, const passes::ShadingList& list, const Scene::Slots& slots,
-               const Progress& progress);
+    Forecast predict(Job* job) const;
+    void rounds(Job* job, const Forecast& forecast);
+    void list(Job* job, Control* control, const Forecast& forecast) const;
+    void shade(Job* job, uint32_t seed) const;
+    void measure(Job* job) const;
+    void accumulate(Job* job) const;
+    void finish(Job* job) const;
+    std::vector<float> interpolation_shape() const;
+    uint64_t pixels() const { return uint64_t(width_) * height_; }
 
     gl::DevicePtr device_;
     uint32_t width_, height_;
     std::unique_ptr<passes::SequenceTable> sequence_;
     std::shared_ptr<const Result> result_;
+    Pace pace_;  // of this frame's last rounds
 };
 
 }  // namespace lightband

@@ -11,12 +11,13 @@ void Plan::finished(const char* name, const std::string& reason, uint64_t bytes,
     const Clock::time_point now = Clock::now();
     const double spent = milliseconds(mark_, now);
     mark_ = now;
-    // The passes of accumulated frames repeat: each name keeps one line.
+    // The passes of rounds and of accumulated frames repeat: each name keeps one line, with the last reason.
     const auto same = std::find_if(passes_.begin(), passes_.end(), [&](const Pass& pass) { return pass.name == name; });
     if (same == passes_.end()) {
         passes_.push_back({name, reason, spent, bytes, invocations, unit});
     } else {
         same->milliseconds += spent;
+        same->reason = reason;
         same->invocations += invocations;
     }
 }

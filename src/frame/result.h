@@ -1,6 +1,7 @@
 // What a frame holds after it was rendered.
 #pragma once
 
+#include "frame/estimate.h"
 #include "frame/frame.h"
 
 namespace lightband {
@@ -14,6 +15,10 @@ struct Frame::Result {
     GBuffer gbuffer;
     std::optional<Prediction> prediction;
     Shading shading;
+    std::vector<uint32_t> slot_of;   // BRDF slot of each instance
+    ErrorEstimate estimate;
+
+    RoundPixels read_round() const;
     std::vector<float> accumulated;  // RGBA means over several frames, where asked for
     Plan plan;
     lb_frame_stats stats = LB_FRAME_STATS_INIT;

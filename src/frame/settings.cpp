@@ -27,7 +27,7 @@ lb_setting_info choice_of(const char* name, const char* choices, const char* sta
 
 // The order is that of the enumerations in settings.h and elsewhere; Place names it.
 enum Place {
-    place_method, place_samples, place_max_samples, place_bandwidth_scale, place_coarsest_level, place_pilots,
+    place_method, place_target_error, place_time_budget, place_samples, place_max_samples, place_bandwidth_scale, place_coarsest_level, place_pilots,
     place_transport, place_band_rule, place_variance, place_allocation, place_sampler, place_sequence, place_brdf_lookup,
     place_environment_lookup, place_background, place_seed, place_accumulate, place_count
 };
@@ -36,8 +36,15 @@ const lb_setting_info table[place_count] = {
     choice_of("method", "adaptive|reference", "adaptive",
               "adaptive: shade where the predicted bandwidth asks for it, interpolate elsewhere. reference: shade every pixel "
               "with the same number of random samples of the BRDF."),
+    real("target_error", 0, 1, 0,
+         "Relative error of the frame that is asked for (docs/conventions.md); rounds of shading stop where the estimate is below "
+         "it. 0: none. The frame's statistics say what was reached."),
+    real("time_budget", 0, 1e6, 0,
+         "Milliseconds that the frame may take; it becomes as good as they let. 0: no limit. With target_error: whichever comes "
+         "first."),
     integer("samples", 1, 1 << 20, 64,
-            "Light samples per shaded pixel: the mean of an adaptive frame, the constant number of a reference."),
+            "Light samples per shaded pixel: the mean of an adaptive frame, the constant number of a reference. Unused where an error "
+            "or a time is asked for."),
     integer("max_samples", 1, 1 << 20, 1 << 16, "Most samples that one pixel of an adaptive frame may get."),
     real("bandwidth_scale", 0, Settings::largest_bandwidth_scale, 0,
          "Factor on the predicted image bandwidth before a level is chosen; more: more pixels are shaded. 0: chosen so that "
@@ -167,6 +174,8 @@ Lookup Settings::brdf_lookup() const { return values_[place_brdf_lookup] == 0 ? 
 Lookup Settings::environment_lookup() const {
     return values_[place_environment_lookup] == 0 ? Lookup::linear : Lookup::nearest;
 }
+double Settings::target_error() const { return values_[place_target_error]; }
+double Settings::time_budget() const { return values_[place_time_budget]; }
 uint32_t Settings::samples() const { return uint32_t(values_[place_samples]); }
 uint32_t Settings::max_samples() const { return uint32_t(values_[place_max_samples]); }
 uint32_t Settings::pilots() const { return uint32_t(values_[place_pilots]); }

@@ -6,6 +6,7 @@
 
 #include "bandwidth/transport.h"
 #include "bandwidth/wavelet.h"
+#include "frame/budget.h"
 #include "scene/brdf.h"
 
 #include "lightband/lightband.h"
@@ -14,7 +15,6 @@ namespace lightband {
 
 enum class Method { adaptive, reference };
 enum class Variance { moments, printed };
-enum class Allocation { least_error, constant_variance };
 enum class Sequence { sobol, random };
 enum class Sampler { combined, brdf };
 
@@ -40,6 +40,8 @@ public:
     Sampler sampler() const;
     Lookup brdf_lookup() const;
     Lookup environment_lookup() const;
+    double target_error() const;  // 0: none
+    double time_budget() const;   // milliseconds; 0: none
     uint32_t samples() const;
     uint32_t max_samples() const;
     uint32_t pilots() const;

@@ -32,12 +32,14 @@ struct Prediction {
 };
 
 struct Shading {
-    gl::Texture radiance;      // RGBA32F: mean of RGB, mean of squared luminance
+    gl::Texture radiance;      // RGBA32F: RGB; where shaded: mean of squared luminance, where interpolated: variance of the mean
+    gl::Texture spread;        // RG32F: half the difference of two replicates' luminances; at a witness: squared interpolation error
     gl::Texture sample_count;  // R32UI
-    gl::Texture decision;      // R8UI: 0 nothing, 1 interpolate, 2 + bin shade
+    gl::Texture decision;      // R8UI: shaders/decision.glsl
 
     Shading(const gl::Functions& gl, uint32_t width, uint32_t height);
-    size_t bytes() const { return radiance.bytes() + sample_count.bytes() + decision.bytes(); }
+    void clear(const gl::Functions& gl) const;  // nothing shaded yet
+    size_t bytes() const { return radiance.bytes() + spread.bytes() + sample_count.bytes() + decision.bytes(); }
 };
 
 }  // namespace lightband

@@ -25,13 +25,22 @@ void visit_bins(Visit visit) {
 
 }  // namespace
 
+Histogram Counts::bins() const {
+    Histogram sums(budget_bins);
+    for (size_t i = 0; i < histogram.size(); ++i) sums[i % budget_bins] += histogram[i];
+    return sums;
+}
+
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
+                double witnesses, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction* prediction,
+                const Shading& target) {
     const gl::Functions& gl = device.gl();
-    const gl::Buffer counts(gl, (header + slots * budget_bins) * sizeof(uint32_t), nullptr);
+    const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
     const gl::Program& program = device.compute("classify", definitions(settings, prediction));
     program.set("coarsest_level", int32_t(settings.coarsest_level()));
+    program.set("witnesses", uint32_t(witnesses * 0x1p32));
+    program.set("seed", settings.seed());
     program.set("screen_right", {float(camera.right.x), float(camera.right.y), float(camera.right.z)});
     program.set("screen_up", {float(camera.up.x), float(camera.up.y), float(camera.up.z)});
     program.use();
@@ -46,32 +55,28 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
         bind_texture(gl, 4, prediction->bandwidth);
     }
     bind_image(gl, 2, target.decision, GL_R8UI);
+    bind_image(gl, 3, target.sample_count, GL_R32UI);
     bind_storage(gl, 0, counts);
     dispatch_pixels(gl, width, height);
 
-    std::vector<uint32_t> raw(header + slots * budget_bins);
+    std::vector<uint32_t> raw(header + slots * 2 * budget_bins);
     counts.read(0, raw.size() * sizeof(uint32_t), raw.data());
     return {raw[0], raw[1], raw[2], std::vector<uint32_t>(raw.begin() + header, raw.end())};
 }
 
-ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Settings& settings,
-                         uint32_t width, uint32_t height, const GBuffer& gbuffer, const Shading& target) {
+ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget, uint32_t width,
+                         uint32_t height, const GBuffer& gbuffer, const Shading& target) {
     const gl::Functions& gl = device.gl();
-    const size_t slots = counts.histogram.size() / budget_bins;
-    std::vector<uint64_t> pixels_of_bin(budget_bins);
-    for (size_t i = 0; i < counts.histogram.size(); ++i) pixels_of_bin[i % budget_bins] += counts.histogram[i];
+    const size_t parts = counts.histogram.size() / budget_bins;  // two of each slot
     ShadingList list;
-    list.samples = settings.method() == Method::reference
-                       ? std::vector<uint32_t>(budget_bins, settings.samples())
-                       : plan_budget(pixels_of_bin, settings.samples(), settings.max_samples());
-
+    list.samples = budget;
     std::vector<uint32_t> cursors(std::max<size_t>(counts.histogram.size(), 1));
     uint32_t place = 0;
-    for (uint32_t slot = 0; slot < slots; ++slot) {
-        ShadingList::Part part{slot, place, 0, {}};
+    for (uint32_t index = 0; index < parts; ++index) {
+        ShadingList::Part part{index / 2, place, 0, {}};
         visit_bins([&](uint32_t bin) {
-            const uint32_t count = counts.histogram[slot * budget_bins + bin];
-            cursors[slot * budget_bins + bin] = place;
+            const uint32_t count = counts.histogram[index * budget_bins + bin];
+            cursors[index * budget_bins + bin] = place;
             place += count;
             part.count += count;
             if (count == 0) return;

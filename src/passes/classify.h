@@ -11,31 +11,36 @@ namespace lightband::passes {
 
 struct Counts {
     uint32_t covered = 0, bent = 0, saturated = 0;
-    std::vector<uint32_t> histogram;  // slot * budget_bins + bin
+    std::vector<uint32_t> histogram;  // (slot * 2 + whether a former round shaded it) * budget_bins + bin
+
+    Histogram bins() const;  // over all slots
 };
 
-// Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike.
+// Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: the part of
+// those that might be interpolated that are shaded all the same.
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
+                double witnesses, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction* prediction,
+                const Shading& target);
 
-// The pixels to shade: slot by slot, within a slot by falling sample count.
+// The pixels to shade: slot by slot, those of former rounds apart, by falling sample count.
 struct ShadingList {
     gl::Buffer entries;                // y << 16 | x
     gl::Texture entries_texture;
-    std::vector<uint32_t> samples;     // of each bin
+    Budget samples;                    // of each bin
     struct Part {
         uint32_t slot, first, count;   // entries of one material
         std::vector<uint32_t> longer;  // longer[k]: how many of them have more than k * part_samples samples
     };
     std::vector<Part> parts;
-    uint64_t pixels = 0, total_samples = 0;
+    uint64_t pixels = 0;               // all that are shaded, those of former rounds included
+    uint64_t total_samples = 0;        // at most; what former rounds drew is not taken off
 };
 
 // Samples that one invocation draws in one dispatch. A software renderer may end loops after 65,535 iterations (counting inner
 // loops, which the shading loop has not more than eight of); and a block of the (0,2)-sequence has this length.
 constexpr uint32_t part_samples = 4096;
 
-ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Settings& settings,
-                         uint32_t width, uint32_t height, const GBuffer& gbuffer, const Shading& target);
+ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget, uint32_t width,
+                         uint32_t height, const GBuffer& gbuffer, const Shading& target);
 
 }  // namespace lightband::passes

@@ -20,11 +20,6 @@ gl::Buffer all_pilots(const gl::Functions& gl, const Scene::Slots& slots, const 
     return gl::Buffer(gl, all.size() * sizeof(Pilot), all.data());
 }
 
-// Error of a frame whose levels follow its bandwidth unscaled, by interpolation alone; it falls with the square of the spacing.
-// Measured on scanned meshes it lies between 0.01 (a matte fabric) and 0.1 (a clear coat under a probe); the frame does not
-// know which, and the upper end costs the former some time, the lower end would cost the latter its accuracy.
-constexpr double interpolation_error = 0.08;
-
 // Sum over the frame of what shaders/row_sums.glsl adds up.
 double row_sums(gl::Device& device, const Prediction& prediction, uint32_t height, const char* definitions, double mean) {
     const gl::Functions& gl = device.gl();
@@ -64,7 +59,7 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
         "bandwidth", text("LOBE_VIEWS ", LobeTable::views,
                           settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
                           settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
-                          settings.sampler() == Sampler::combined ? "\nSAMPLER_COMBINED" : ""));
+                          settings.sampler() == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_WORTH ", map_sample_worth) : ""));
     // Of a map so dark that this leaves the range of float, every squared radiance is 0: the largest float times that is 0, as it
     // should be, where infinity times that is not a number.
     const double map_density = std::min(1 / scene.light->sampler().total(), double(std::numeric_limits<float>::max()));
@@ -84,35 +79,33 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
     dispatch_pixels(gl, width, height);
 }
 
-Forecast forecast(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t width, uint32_t height) {
+Forecast coverage(const GBuffer& gbuffer, uint32_t width, uint32_t height) {
     std::vector<uint8_t> material(size_t(width) * height);
     gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
-    const auto covered = double(material.size() - size_t(std::count(material.begin(), material.end(), 0)));
     Forecast result;
-    if (covered == 0) return result;
-    result.mean_radiance = row_sums(device, prediction, height, "", 0) / covered;
-    result.relative_deviation = row_sums(device, prediction, height, "DEVIATIONS", result.mean_radiance) / covered;
+    result.covered = double(material.size() - size_t(std::count(material.begin(), material.end(), 0)));
     return result;
 }
 
-double bandwidth_scale(const Settings& settings, const Forecast& forecast) {
-    if (settings.bandwidth_scale() > 0) return settings.bandwidth_scale();
-    // With samples shared for least error, the noise of a frame is the mean deviation over the root of the mean count.
-    const double noise = forecast.relative_deviation / std::sqrt(double(settings.samples()));
-    return noise > 0 ? std::min(std::sqrt(interpolation_error / noise), Settings::largest_bandwidth_scale)
-                     : Settings::largest_bandwidth_scale;
+Forecast forecast(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t width, uint32_t height) {
+    Forecast result = coverage(gbuffer, width, height);
+    if (result.covered == 0) return result;
+    result.mean_radiance = row_sums(device, prediction, height, "", 0) / result.covered;
+    result.relative_deviation = row_sums(device, prediction, height, "DEVIATIONS", result.mean_radiance) / result.covered;
+    return result;
 }
 
-void pyramids(gl::Device& device, const Forecast& forecast, const Settings& settings, const GBuffer& gbuffer, uint32_t width,
-              uint32_t height, const Prediction& target) {
+void pyramids(gl::Device& device, const Forecast& forecast, const SlotTable& slot_of, const std::vector<float>& scales,
+              const Settings& settings, const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& target) {
     const gl::Functions& gl = device.gl();
+    const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.size(), 1) * sizeof(float), scales.data());
+    const gl::Texture scales_texture = gl::Texture::of_buffer(gl, GL_R32F, scale_buffer);
     uint32_t w = width, h = height;
     for (size_t level = 0; level < target.rows.size(); ++level) {
         const gl::Program& program = device.compute("pyramid", level == 0 ? "FIRST_LEVEL" : "");
         program.set("finer_size", int32_t(w), int32_t(h));
         if (level == 0) {
             program.set("mean_radiance", float(forecast.mean_radiance));
-            program.set("bandwidth_scale", float(bandwidth_scale(settings, forecast)));
             program.set("coarsest_level", int32_t(settings.coarsest_level()));
         } else {
             program.set("finer_row", int32_t(target.rows[level - 1]));
@@ -124,6 +117,8 @@ void pyramids(gl::Device& device, const Forecast& forecast, const Settings& sett
         bind_texture(gl, 0, target.prediction);
         bind_texture(gl, 1, target.bandwidth);
         bind_texture(gl, 2, gbuffer.material);
+        bind_texture(gl, 3, slot_of.texture);
+        bind_texture(gl, 4, scales_texture);
         bind_image(gl, 0, target.levels, GL_R8UI);
         bind_image(gl, 1, target.variances, GL_R32F);
         dispatch_pixels(gl, w, h);

@@ -15,7 +15,7 @@ constexpr uint64_t dispatch_samples = 1u << 23;
 std::string definitions(const Material& material, const Settings& settings) {
     return material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples) +
            (settings.sequence() == Sequence::random ? "\nSEQUENCE_RANDOM" : "") +
-           (settings.sampler() == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u") : "") +
+           (settings.sampler() == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::clusters, "u\nMAP_WORTH ", map_sample_worth) : "") +
            (settings.environment_lookup() == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : "");
 }
 
@@ -33,14 +33,15 @@ SequenceTable::SequenceTable(const gl::Functions& gl) {
 }
 
 void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t seed,
-           const SequenceTable& sequence, const ShadingList& list, const GBuffer& gbuffer, const Shading& target,
-           const Drawn& drawn) {
+           const SequenceTable& sequence, const ShadingList& list, bool first_round, const GBuffer& gbuffer,
+           const Shading& target, const Drawn& drawn) {
     const gl::Functions& gl = device.gl();
     uint64_t done = 0;
     for (const ShadingList::Part& part : list.parts) {
         const Material& material = *slots.materials[part.slot];
         const gl::Program& program = device.compute("shade", definitions(material, settings));
         program.set("seed", seed);
+        program.set("spared", first_round ? 31u : 4u);
         program.set_array("samples", list.samples.data(), int32_t(budget_bins));
         program.use();
         material.bind(program);
@@ -50,10 +51,14 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         bind_texture(gl, 6, gbuffer.normal);
         bind_texture(gl, 7, target.decision);
         bind_texture(gl, 8, sequence.texture);
-        if (settings.sampler() == Sampler::combined)
-            bind_texture(gl, 10, scene.light->points(settings.environment_lookup(), seed).texture);
+        if (settings.sampler() == Sampler::combined) {
+            const MapPoints& points = scene.light->points(settings.environment_lookup(), seed);
+            bind_texture(gl, 10, points.texture);
+            bind_texture(gl, 11, points.cluster_texture);
+        }
         bind_image(gl, 0, target.radiance, GL_RGBA32F);
         bind_image(gl, 1, target.sample_count, GL_R32UI);
+        bind_image(gl, 2, target.spread, GL_RG32F);
         for (uint32_t round = 0; round < part.longer.size(); ++round) {
             const uint32_t per_pixel = std::min(part_samples, *std::max_element(list.samples.begin(), list.samples.end()));
             const uint32_t pixels = uint32_t(std::max<uint64_t>(64, dispatch_samples / per_pixel));
@@ -61,7 +66,6 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
                 const uint32_t count = std::min(pixels, part.longer[round] - first);
                 program.set("first", part.first + first);
                 program.set("count", count);
-                program.set("part", round * part_samples);
                 gl.DispatchCompute((count + 63) / 64, 1, 1);
                 gl.MemoryBarrier(everything);
                 gl.Finish();
@@ -85,7 +89,9 @@ void upsample(gl::Device& device, const Camera& camera, const Settings& settings
     bind_texture(gl, 2, gbuffer.material);
     bind_texture(gl, 3, target.decision);
     bind_image(gl, 0, target.radiance, GL_RGBA32F);
+    bind_texture(gl, 4, target.sample_count);
     bind_image(gl, 1, prediction.levels, GL_R8UI);
+    bind_image(gl, 2, target.spread, GL_RG32F);
     for (uint32_t level = settings.coarsest_level(); level-- > 0;) {
         program.set("level", int32_t(level));
         dispatch_pixels(gl, (width + (1u << level) - 1) >> level, (height + (1u << level) - 1) >> level);

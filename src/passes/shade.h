@@ -18,7 +18,7 @@ struct SequenceTable {
 using Drawn = std::function<void(uint64_t samples)>;
 
 void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t seed,
-           const SequenceTable& sequence, const ShadingList& list, const GBuffer& gbuffer, const Shading& target,
+           const SequenceTable& sequence, const ShadingList& list, bool first_round, const GBuffer& gbuffer, const Shading& target,
            const Drawn& drawn);
 
 void upsample(gl::Device& device, const Camera& camera, const Settings& settings, uint32_t width, uint32_t height,

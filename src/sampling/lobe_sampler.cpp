@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bandwidth/octahedral.h"
+
 namespace lightband {
 namespace {
 
@@ -164,6 +166,26 @@ LobeTable lobe_table(const Brdf& brdf) {
         }
     }
     return table;
+}
+
+LobeImportance lobe_importance(const Brdf& brdf) {
+    constexpr int side = LobeImportance::side, supersampling = 4, fine = side * supersampling;
+    // A peak narrower than the lookups would be seen by chance; one as wide as a cell is seen where it is.
+    Brdf smooth = brdf;
+    if (auto* ggx = std::get_if<Ggx>(&smooth)) ggx->alpha = std::max(ggx->alpha, 1.0 / side);
+    LobeImportance result;
+    result.values.resize(size_t(LobeTable::views) * side * side);
+    for (int view = 0; view < LobeTable::views; ++view) {
+        const double theta = (view + 0.5) / LobeTable::views * pi / 2;
+        const Vec3 wo(std::sin(theta), 0, std::cos(theta));
+        for (int y = 0; y < fine; ++y)
+            for (int x = 0; x < fine; ++x) {
+                const Vec3 wi = HemiOctahedral::to_direction(Vec2(x + 0.5, y + 0.5) / double(fine));
+                float& cell = result.values[size_t((view * side + y / supersampling) * side + x / supersampling)];
+                cell += float(luminance(evaluate(smooth, wi, wo)) * wi.z / (supersampling * supersampling));
+            }
+    }
+    return result;
 }
 
 LobeSampler::LobeSampler(const Brdf& brdf) : brdf_(brdf) {

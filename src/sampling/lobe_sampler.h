@@ -34,6 +34,15 @@ struct LobeTable {
 
 LobeTable lobe_table(const Brdf& brdf);
 
+// How much of the light from each direction a lobe reflects, coarsely: means of the luminance of f cos(theta_i) over the cells of
+// the square of incident directions (docs/conventions.md), for each of LobeTable::views.
+struct LobeImportance {
+    static constexpr int side = 16;
+    std::vector<float> values;  // views * side * side
+};
+
+LobeImportance lobe_importance(const Brdf& brdf);
+
 struct LobeSample {
     Vec3 wi{0};
     Vec3 half{0};

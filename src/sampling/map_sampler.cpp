@@ -102,4 +102,64 @@ std::vector<MapPoint> draw_map_points(const RgbImage& map, const MapSampler& sam
     return points;
 }
 
+namespace {
+
+// Orders points[0 .. count) so that each half, quarter ... is compact.
+void halve(MapPoint* points, size_t count) {
+    if (count < 2) return;
+    float low[3], high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = high[axis] = points[0].direction[axis];
+        for (size_t i = 1; i < count; ++i) {
+            low[axis] = std::min(low[axis], points[i].direction[axis]);
+            high[axis] = std::max(high[axis], points[i].direction[axis]);
+        }
+    }
+    int widest = 0;
+    for (int axis = 1; axis < 3; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest]) widest = axis;
+    std::nth_element(points, points + count / 2, points + count, [widest](const MapPoint& a, const MapPoint& b) {
+        return a.direction[widest] < b.direction[widest];
+    });
+    halve(points, count / 2);
+    halve(points + count / 2, count - count / 2);
+}
+
+MapCluster cluster_of(const MapPoint* points, size_t count) {
+    Vec3 sum(0);
+    double solid_angle = 0;
+    for (size_t i = 0; i < count; ++i) {
+        sum += Vec3(points[i].direction[0], points[i].direction[1], points[i].direction[2]);
+        solid_angle += points[i].inverse_pdf;
+    }
+    // A cluster around the whole sphere has no middle; any direction serves for one that is seen from everywhere.
+    const double length = glm::length(sum);
+    const Vec3 middle = length > 0 ? sum / length : Vec3(0, 1, 0);
+    double cosine = 1;
+    for (size_t i = 0; i < count; ++i)
+        cosine = std::min(cosine, glm::dot(middle, Vec3(points[i].direction[0], points[i].direction[1], points[i].direction[2])));
+    const double sine = cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : 1;
+    return {{float(middle.x), float(middle.y), float(middle.z)}, float(sine), float(count / solid_angle), {}};
+}
+
+}  // namespace
+
+std::vector<MapCluster> cluster_points(std::vector<MapPoint>* points, uint32_t clusters) {
+    halve(points->data(), points->size());
+    const size_t each = points->size() / clusters;
+    std::vector<MapCluster> result;
+    std::vector<MapPoint> ordered(each);
+    for (uint32_t cluster = 0; cluster < clusters; ++cluster) {
+        MapPoint* own = points->data() + cluster * each;
+        result.push_back(cluster_of(own, each));
+        for (size_t i = 0; i < each; ++i) {
+            size_t reversed = 0;
+            for (size_t bit = 1; bit < each; bit *= 2) reversed = reversed * 2 + ((i & bit) != 0 ? 1 : 0);
+            ordered[i] = own[reversed];
+        }
+        std::copy(ordered.begin(), ordered.end(), own);
+    }
+    return result;
+}
+
 }  // namespace lightband

@@ -34,7 +34,10 @@ const EnvironmentBandwidth& Light::bandwidth(BandRule rule) const {
 
 const MapPoints& Light::points(Lookup lookup, uint32_t seed) const {
     if (!points_.buffer || points_key_ != std::pair(lookup, seed)) {
-        const std::vector<MapPoint> points = draw_map_points(map_, sampler_, lookup, seed, MapPoints::count);
+        std::vector<MapPoint> points = draw_map_points(map_, sampler_, lookup, seed, MapPoints::count);
+        const std::vector<MapCluster> clusters = cluster_points(&points, MapPoints::clusters);
+        points_.cluster_buffer = gl::Buffer(device_->gl(), clusters.size() * sizeof(MapCluster), clusters.data());
+        points_.cluster_texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, points_.cluster_buffer);
         points_.buffer = gl::Buffer(device_->gl(), points.size() * sizeof(MapPoint), points.data());
         points_.texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, points_.buffer);
         points_key_ = {lookup, seed};

@@ -19,9 +19,9 @@ struct EnvironmentBandwidth {
 
 // Directions drawn from a map beforehand; a pixel takes an aligned block of them.
 struct MapPoints {
-    static constexpr uint32_t count = 1u << 16;
-    gl::Buffer buffer;
-    gl::Texture texture;  // two vec4 a point: sampling/map_sampler.h, MapPoint
+    static constexpr uint32_t count = 1u << 16, clusters = 64;
+    gl::Buffer buffer, cluster_buffer;
+    gl::Texture texture, cluster_texture;  // two vec4 each: sampling/map_sampler.h, MapPoint and MapCluster
 };
 
 class Light {

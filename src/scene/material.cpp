@@ -10,6 +10,9 @@ namespace lightband {
 
 Material::Material(gl::DevicePtr device, Brdf brdf)
     : device_(std::move(device)), brdf_(std::move(brdf)), sampler_(brdf_) {
+    const LobeImportance importance = lobe_importance(brdf_);
+    importance_ = gl::Buffer(device_->gl(), importance.values.size() * sizeof(float), importance.values.data());
+    importance_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, importance_);
     if (const auto* table = std::get_if<BrdfTable>(&brdf_)) upload_table(*table);
 }
 
@@ -42,13 +45,15 @@ void Material::upload_table(const BrdfTable& table) {
 }
 
 std::string Material::definitions(Lookup lookup) const {
-    if (std::holds_alternative<Lambert>(brdf_)) return "LOBE_LAMBERT";
-    if (std::holds_alternative<Ggx>(brdf_)) return "LOBE_GGX";
-    return text("LOBE_TABLE\nLOBE_VIEWS ", LobeTable::views, "\nLOBE_RADIAL ", LobeTable::radial, "\nLOBE_AZIMUTHAL ",
-                LobeTable::azimuthal, "\nLOBE_DEFENSIVE ", LobeTable::defensive_part, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
+    const std::string views = text("LOBE_VIEWS ", LobeTable::views, "\nIMPORTANCE_SIDE ", LobeImportance::side);
+    if (std::holds_alternative<Lambert>(brdf_)) return "LOBE_LAMBERT\n" + views;
+    if (std::holds_alternative<Ggx>(brdf_)) return "LOBE_GGX\n" + views;
+    return text("LOBE_TABLE\n", views, "\nLOBE_RADIAL ", LobeTable::radial, "\nLOBE_AZIMUTHAL ", LobeTable::azimuthal,
+                "\nLOBE_DEFENSIVE ", LobeTable::defensive_part, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
 }
 
 void Material::bind(const gl::Program& program) const {
+    device_->gl().BindTextureUnit(12, importance_texture_.name());
     if (const auto* lambert = std::get_if<Lambert>(&brdf_)) {
         program.set("albedo", {float(lambert->albedo.x), float(lambert->albedo.y), float(lambert->albedo.z)});
     } else if (const auto* ggx = std::get_if<Ggx>(&brdf_)) {

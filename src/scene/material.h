@@ -25,7 +25,7 @@ public:
 
     const LobeBandwidth& bandwidth(BandRule rule) const;
     const std::vector<Pilot>& pilots(BandRule rule, uint32_t count) const;
-    size_t device_bytes() const { return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes(); }
+    size_t device_bytes() const { return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes() + importance_.bytes(); }
 
 private:
     void upload_table(const BrdfTable& table);
@@ -34,8 +34,8 @@ private:
     const Brdf brdf_;
     const LobeSampler sampler_;
     float table_scale_ = 1;
-    gl::Buffer cells_, lobe_x_, lobe_phi_, lobe_albedo_;
-    gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_, lobe_albedo_texture_;
+    gl::Buffer cells_, lobe_x_, lobe_phi_, lobe_albedo_, importance_;
+    gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_, lobe_albedo_texture_, importance_texture_;
     mutable std::map<BandRule, LobeBandwidth> bandwidths_;
     mutable std::map<std::pair<BandRule, uint32_t>, std::vector<Pilot>> pilots_;
 };

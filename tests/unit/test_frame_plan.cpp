@@ -37,7 +37,7 @@ void budget_meets_its_mean(void**) {
         const std::vector<uint64_t> histogram = random_histogram(random);
         const double mean = std::floor(random.log_uniform(1, 4096));
         const uint32_t most = 1u << 20;
-        const std::vector<uint32_t> samples = plan_budget(histogram, mean, most);
+        const std::vector<uint32_t> samples = plan_mean(histogram, mean, most);
         assert_int_equal(samples.size(), budget_bins);
         const double found = samples_in(histogram, samples) / pixels_in(histogram);
         // Shares of 2^19 and more apart may leave nothing to be shared between the bounds.
@@ -56,7 +56,7 @@ void budget_grows_with_the_share_within_its_limits(void**) {
         const std::vector<uint64_t> histogram = random_histogram(random);
         const double mean = std::floor(random.log_uniform(1, 4096));
         const uint32_t most = uint32_t(random.log_uniform(1, 1 << 16));
-        const std::vector<uint32_t> samples = plan_budget(histogram, mean, most);
+        const std::vector<uint32_t> samples = plan_mean(histogram, mean, most);
         const uint32_t least = std::min({least_samples, most, uint32_t(mean)});
         for (uint32_t bin = 0; bin < budget_bins; ++bin) {
             assert_true(samples[bin] >= least && samples[bin] <= most);
@@ -69,16 +69,16 @@ void budget_grows_with_the_share_within_its_limits(void**) {
 void budget_follows_the_shares(void**) {
     std::vector<uint64_t> histogram(budget_bins);
     for (uint32_t bin = 30; bin < 36; ++bin) histogram[bin] = 1000;
-    const std::vector<uint32_t> samples = plan_budget(histogram, 500, 1 << 20);
+    const std::vector<uint32_t> samples = plan_mean(histogram, 500, 1 << 20);
     for (uint32_t bin = 31; bin < 36; ++bin) check_close("twice", samples[bin], 2.0 * samples[bin - 1], 1.5);
     // One bin alone gets the mean.
     std::vector<uint64_t> single(budget_bins);
     single[7] = 123;
-    assert_int_equal(plan_budget(single, 64, 1 << 16)[7], 64);
-    assert_int_equal(plan_budget(single, 64, 16)[7], 16);
-    assert_int_equal(plan_budget(single, 1, 16)[7], 1);
+    assert_int_equal(plan_mean(single, 64, 1 << 16)[7], 64);
+    assert_int_equal(plan_mean(single, 64, 16)[7], 16);
+    assert_int_equal(plan_mean(single, 1, 16)[7], 1);
     // No pixel at all: any number within the limits.
-    for (const uint32_t count : plan_budget(std::vector<uint64_t>(budget_bins), 64, 16))
+    for (const uint32_t count : plan_mean(std::vector<uint64_t>(budget_bins), 64, 16))
         assert_true(count >= 4 && count <= 16);
 }
 

@@ -54,6 +54,16 @@ class FrameStats:
     """Of it: everything that prediction adds (bandwidth, pyramids, lists)."""
     shading_milliseconds: float
     """Of it: the shading integral."""
+    error: float
+    """Relative error of the frame, as the frame itself estimates it; the field "error" holds it pixel by pixel."""
+    noise_error: float
+    """The part of it that more samples would lessen."""
+    interpolation_error: float
+    """The part of it that finer levels would lessen; the squares of both add up to that of error."""
+    capped_pixels: int
+    """Pixels whose samples reached the setting "max_samples"; they may have deserved more."""
+    rounds: int
+    """Rounds of shading: 1 where neither an error nor a time was asked for."""
 
 
 @dataclass(frozen=True)

@@ -89,6 +89,7 @@ STYLES = {
     "level": FieldStyle("Level", "category", "viridis_r"),
     "shaded": FieldStyle("Shaded", "yes or no"),
     "sample_count": FieldStyle("Samples", "log", "viridis"),
+    "error": FieldStyle("Relative error, estimated", "log", "magma"),
     "variance_predicted": FieldStyle("Predicted variance", "log", "magma"),
     "variance_measured": FieldStyle("Measured variance", "log", "magma"),
     "level_pyramid": FieldStyle("Pyramid of least levels", "category", "viridis_r"),

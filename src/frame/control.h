@@ -1,0 +1,69 @@
+// From what the user asked (samples, an error, a time) to rounds: prediction plans the first, measurement corrects the next.
+#pragma once
+
+#include <vector>
+
+#include "frame/budget.h"
+#include "frame/estimate.h"
+#include "frame/settings.h"
+
+namespace lightband {
+
+// What a frame's prediction amounts to, over its covered pixels.
+struct Forecast {
+    double covered = 0;             // pixels
+    double mean_radiance = 0;       // luminance
+    double relative_deviation = 0;  // mean of one light sample's standard deviation over the pixel's radiance
+};
+
+// What a round cost.
+struct RoundCost {
+    uint64_t samples = 0;
+    double shading_milliseconds = 0;
+    double other_milliseconds = 0;    // lists, interpolation, measurement
+    double elapsed_milliseconds = 0;  // since the frame began
+};
+
+// How fast a device shades: learnt from round to round and from frame to frame.
+struct Pace {
+    double samples_per_millisecond = 5000;  // a guess, until a frame has measured it
+    double round_milliseconds = 0;          // of a round beside its shading
+
+    void learn(const RoundCost& cost);
+};
+
+class Control {
+public:
+    // pace: what the device was last seen to do; elapsed: milliseconds since the frame began.
+    Control(const Settings& settings, const Forecast& forecast, size_t slots, const Pace& pace, double elapsed);
+
+    // Factor on the bandwidth of each BRDF slot, under which levels are chosen.
+    const std::vector<float>& scales() const { return scales_; }
+    // The part of pixels that are shaded although they might be interpolated, to measure what interpolation costs.
+    double witnesses() const { return witnesses_; }
+    // Samples of each bin in this round, those of former rounds included; elapsed: milliseconds since the frame began.
+    const Budget& plan(const Histogram& histogram, double elapsed);
+    // Whether another round is needed after what the last one gave.
+    bool again(const ErrorEstimate& estimate, const RoundCost& cost);
+
+private:
+    bool improve_levels(const ErrorEstimate& estimate);
+    void choose_witnesses(const ErrorEstimate& estimate);
+    bool out_of_time(const RoundCost& cost);
+    double time_to_shade(double elapsed) const;
+    double first_scale(double elapsed) const;
+
+    const Settings& settings_;
+    const Forecast forecast_;
+    std::vector<float> scales_;
+    double witnesses_;
+    Histogram histogram_;
+    Budget budget_;
+    double noise_goal_ = 0;   // mean square over the covered pixels
+    double correction_ = 0;   // measured noise over predicted
+    Pace pace_;
+    double drawn_ = 0;        // samples
+    uint32_t round_ = 0;
+};
+
+}  // namespace lightband

@@ -1,0 +1,124 @@
+#include "frame/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+#include "frame/decision.h"
+
+namespace lightband {
+namespace {
+
+double luminance_at(const RoundPixels& pixels, size_t at) {
+    const float* rgb = &pixels.radiance[4 * at];
+    return luminance(Vec3(rgb[0], rgb[1], rgb[2]));
+}
+
+double mean_luminance(const RoundPixels& pixels) {
+    double sum = 0, covered = 0;
+    for (size_t i = 0; i < pixels.material.size(); ++i) {
+        if (pixels.material[i] == 0) continue;
+        sum += luminance_at(pixels, i);
+        ++covered;
+    }
+    return covered > 0 ? sum / covered : 0;
+}
+
+// The spread of a single pair of replicates has one degree of freedom; as many pixels as this say "independent samples" first, so
+// that a tiny frame is not believed to be free of noise by luck.
+constexpr double prior_pixels = 8;
+
+// Squared errors of the witnesses of one slot.
+struct WitnessSums {
+    double sum = 0, squares = 0;
+};
+
+// A pixel shows at most this many times what the prediction expects: a sample that is far too bright would else raise the mean
+// that its own error is measured by, and hide in it. Sixteen pilots know the mean to better than that.
+constexpr double surprise = 1.5;
+
+// What a pixel's error is relative to.
+double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
+    double mean = luminance_at(pixels, at);
+    if (!pixels.expected.empty() && pixels.expected[at] > 0) mean = std::min(mean, surprise * pixels.expected[at]);
+    return mean + dark_part * mean_luminance;
+}
+
+}  // namespace
+
+double ErrorEstimate::error() const { return std::sqrt(noise + interpolation); }
+
+double variance_of_mean(const RoundPixels& pixels, size_t at) {
+    const double square = pixels.radiance[4 * at + 3], mean = luminance_at(pixels, at);
+    const uint32_t n = pixels.sample_count[at];
+    if (n == 0) return square;
+    return n > 1 ? std::max(square - mean * mean, 0.0) / (n - 1) : mean * mean;
+}
+
+ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots) {
+    ErrorEstimate result;
+    result.slots.resize(slots);
+    result.mean_luminance = mean_luminance(pixels);
+    std::vector<WitnessSums> witnesses(slots);
+    double spreads = 0, variances = 0, covered = 0;
+    for (size_t i = 0; i < pixels.material.size(); ++i) {
+        if (pixels.material[i] == 0) continue;
+        const uint32_t slot = slot_of[pixels.material[i] - 1u];
+        ErrorEstimate::Slot& own = result.slots[slot];
+        ++own.covered;
+        ++covered;
+        const double scale = scale_of(pixels, i, result.mean_luminance);
+        if (!(scale > 0)) continue;  // a frame without light has no error
+        const double spread = pixels.spread[2 * i] / scale;
+        spreads += spread * spread;
+        variances += variance_of_mean(pixels, i) / (scale * scale);
+        if (is_interpolated(pixels.decision[i])) ++own.interpolated;
+        if (!is_witness(pixels.decision[i])) continue;
+        ++own.witnesses;
+        const double square = pixels.spread[2 * i + 1] / (scale * scale);
+        witnesses[slot].sum += square;
+        witnesses[slot].squares += square * square;
+    }
+    if (covered == 0) return result;
+    if (variances > 0) {
+        const double prior = prior_pixels * variances / covered;
+        result.stratification = (spreads + prior) / (variances + prior);
+    }
+    result.noise = result.stratification * variances / covered;
+    for (size_t slot = 0; slot < slots; ++slot) {
+        ErrorEstimate::Slot& own = result.slots[slot];
+        if (own.witnesses == 0) continue;
+        const double count = double(own.witnesses), mean = witnesses[slot].sum / count;
+        const double part = double(own.interpolated) / double(own.covered);
+        own.interpolation = std::max(mean, 0.0) * part;
+        own.interpolation_deviation = std::sqrt(std::max(witnesses[slot].squares / count - mean * mean, 0.0) / count) * part;
+        result.interpolation += own.interpolation * double(own.covered) / covered;
+        result.interpolation_deviation =
+            std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / covered);
+    }
+    return result;
+}
+
+std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,
+                                const std::vector<float>& shape) {
+    std::vector<double> shape_sums(estimate.slots.size());
+    for (size_t i = 0; i < pixels.material.size(); ++i)
+        if (is_interpolated(pixels.decision[i])) shape_sums[slot_of[pixels.material[i] - 1u]] += shape[i];
+    std::vector<float> errors(pixels.material.size());
+    for (size_t i = 0; i < errors.size(); ++i) {
+        if (pixels.material[i] == 0) continue;
+        const double scale = scale_of(pixels, i, estimate.mean_luminance);
+        if (!(scale > 0)) continue;
+        double square = estimate.stratification * variance_of_mean(pixels, i) / (scale * scale);
+        if (is_interpolated(pixels.decision[i])) {
+            const uint32_t slot = slot_of[pixels.material[i] - 1u];
+            const ErrorEstimate::Slot& own = estimate.slots[slot];
+            const double all = own.interpolation * double(own.covered);  // summed over the slot's pixels
+            square += shape_sums[slot] > 0 ? all * shape[i] / shape_sums[slot] : all / double(own.interpolated);
+        }
+        errors[i] = float(std::sqrt(square));
+    }
+    return errors;
+}
+
+}  // namespace lightband

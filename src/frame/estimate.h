@@ -1,0 +1,49 @@
+// What a finished round says of its error: noise from the spread of two replicates, interpolation from witnesses.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lightband {
+
+// Relative errors are taken of L + dark_part * mean L (docs/conventions.md, error of a frame).
+constexpr double dark_part = 0.01;
+
+// A round's pixels as read back; all arrays of one length, but radiance (RGBA) and spread (two) interleaved: targets.h.
+struct RoundPixels {
+    std::vector<float> radiance, spread;
+    std::vector<float> expected;  // luminance, as predicted; empty where nothing was
+    std::vector<uint32_t> sample_count;
+    std::vector<uint8_t> decision, material;
+};
+
+// Mean squares over the covered pixels.
+struct ErrorEstimate {
+    struct Slot {
+        uint64_t covered = 0, interpolated = 0, witnesses = 0;
+        double interpolation = 0;            // over this slot's covered pixels
+        double interpolation_deviation = 0;  // standard error of it
+    };
+    double mean_luminance = 0;
+    double noise = 0;
+    // Noise over what the samples' variance says of independent ones: stratified points err less.
+    double stratification = 1;
+    double interpolation = 0, interpolation_deviation = 0;
+    std::vector<Slot> slots;
+
+    double error() const;
+};
+
+// slot_of: BRDF slot of each instance, at its number.
+ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots);
+
+// The relative error to be expected of each pixel; 0 where nothing is seen. shape: how the squared error of interpolation is
+// distributed over a slot's interpolated pixels, up to a factor. The root mean square over the covered pixels is error().
+std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,
+                                const std::vector<float>& shape);
+
+// Variance of the luminance that a pixel shows, as if its samples were independent.
+double variance_of_mean(const RoundPixels& pixels, size_t at);
+
+}  // namespace lightband
