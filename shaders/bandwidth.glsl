@@ -1,8 +1,8 @@
 // The bandwidth buffer (section 3.1): per pixel the bandwidth of the light arriving there (eq. 5), its image bandwidth
 // (eq. 6) and the predicted variance of a light sample (eq. 9).
 #include "common.glsl"
+#include "covered.glsl"
 #include "transport.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
@@ -71,14 +71,9 @@ float curvature_at(ivec2 at, Surface here) {
 }
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, textureSize(materials, 0)))) return;
+    ivec2 at;
+    if (!covered_pixel(at)) return;
     Surface here = surface_at(at);
-    if (here.material == 0u) {
-        imageStore(bandwidth, at, vec4(0));
-        imageStore(prediction, at, vec4(0));
-        return;
-    }
     float distance_to_eye = length(here.position);
     vec3 wo_world = -here.position / distance_to_eye;
     mat3 frame = local_frame(here.normal, wo_world);

@@ -1,8 +1,8 @@
 // Which pixels are shaded, and how much each deserves: a histogram from which the host plans the sample budget.
 #include "common.glsl"
+#include "covered.glsl"
 #include "decision.glsl"
 #include "parents.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 3) uniform usamplerBuffer brdf_of;
 #if !defined(SHADE_ALL)
@@ -17,7 +17,7 @@ uniform uint seed;
 layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;
 layout(binding = 3, r32ui) readonly uniform uimage2D sample_counts;  // of former rounds
 layout(binding = 0, std430) buffer Counts {
-    uint covered, bent, saturated, unused;
+    uint bent, saturated, unused[2];
     uint histogram[];  // (BRDF slot * 2 + whether a former round shaded it) * BINS + bin
 } counts;
 
@@ -72,15 +72,10 @@ int share(float variance, int level) {
 #endif
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, textureSize(materials, 0)))) return;
+    ivec2 at;
+    if (!covered_pixel(at)) return;
     uint material = texelFetch(materials, at, 0).r;
-    if (material == 0u) {
-        imageStore(decisions, at, uvec4(nothing_seen));
-        return;
-    }
     bool former = imageLoad(sample_counts, at).r > 0u;
-    atomicAdd(counts.covered, 1u);
     if (texelFetch(normals, at, 0).w > 0.0) atomicAdd(counts.bent, 1u);
 #if defined(SHADE_ALL)
     shade(at, material, BINS / 2, former, false);

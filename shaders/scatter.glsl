@@ -1,7 +1,7 @@
 // Compacts the pixels to shade into one list, ordered by BRDF and then by falling sample count, so that neighbouring lanes run
 // equally long.
+#include "covered.glsl"
 #include "decision.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform usampler2D decisions;
 layout(binding = 1) uniform usampler2D materials;
@@ -11,8 +11,8 @@ layout(binding = 1, std430) writeonly buffer Entries { uint entries[]; };
 layout(binding = 0, r32ui) readonly uniform uimage2D sample_counts;
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, textureSize(decisions, 0)))) return;
+    ivec2 at;
+    if (!covered_pixel(at)) return;
     uint decision = texelFetch(decisions, at, 0).r;
     if (!is_shaded(decision)) return;
     uint slot = texelFetch(brdf_of, int(texelFetch(materials, at, 0).r)).r, former = uint(imageLoad(sample_counts, at).r > 0u);

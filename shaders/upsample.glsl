@@ -2,9 +2,9 @@
 // interpolated value is only compared: with two independent replicates a and b of everything, the product of the two
 // deviations is an unbiased estimate of the squared error of interpolation; their noise cancels.
 #include "common.glsl"
+#include "covered.glsl"
 #include "decision.glsl"
 #include "parents.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 3) uniform usampler2D decisions;
 layout(binding = 4) uniform usampler2D sample_counts;
@@ -12,7 +12,6 @@ layout(binding = 0, rgba32f) uniform image2D radiances;  // src/frame/targets.h
 layout(binding = 1, r8ui) readonly uniform uimage2D levels;
 layout(binding = 2, rg32f) uniform image2D spreads;
 uniform int level;
-uniform int coarsest_level;
 
 // Variance of the luminance that a pixel holds, as if its samples were independent.
 float variance_of_mean(ivec2 at, vec4 radiance) {
@@ -23,11 +22,10 @@ float variance_of_mean(ivec2 at, vec4 radiance) {
 }
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy) << level;
-    if (any(greaterThanEqual(at, textureSize(decisions, 0)))) return;
+    ivec2 at;
+    if (!covered_pixel(at)) return;
     uint decision = texelFetch(decisions, at, 0).r;
     if (decision != interpolate_it && !is_witness(decision)) return;
-    if (lattice_level(at, coarsest_level) != level) return;
     Parents parents = parents_of(at, level, float(imageLoad(levels, at).r));
     vec4 sum = vec4(0);
     float spread = 0.0;

@@ -38,6 +38,7 @@ struct Frame::Job {
     const std::shared_ptr<Result> result;
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
+    passes::Covered covered;
     passes::Counts counts;
     passes::ShadingList list;    // of the last round
     uint64_t samples = 0;        // drawn so far
@@ -60,7 +61,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     const gl::Functions& gl = device_->gl();
     if (sequence_ == nullptr) sequence_ = std::make_unique<passes::SequenceTable>(gl);
     const Scene::Slots slots = scene.slots();
-    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots), {}, {}};
+    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots), {}, {}, {}};
     Result& next = *job.result;
     next.settings = settings;
     next.stats.width = width_;
@@ -71,6 +72,8 @@ void Frame::render(const Scene& scene, const Progress& progress) {
 
     passes::gbuffer(*device_, scene, width_, height_, next.gbuffer);
     next.plan.finished("gbuffer", text(scene.instances().size(), " instances"), next.gbuffer.bytes(), pixels(), "pixels");
+    job.covered = passes::covered(gl, next.gbuffer, width_, height_, settings.coarsest_level());
+    next.plan.finished("covered", "list of the pixels that see a mesh", job.covered.entries.bytes(), pixels(), "pixels");
     const Forecast forecast = predict(&job);
     rounds(&job, forecast);
     if (settings.accumulate() > 1) accumulate(&job);
@@ -89,7 +92,7 @@ void Frame::finish(Job* job) const {
     Result& next = *job->result;
     lb_frame_stats& stats = next.stats;
     stats.frames = settings.accumulate();
-    stats.covered_pixels = job->counts.covered;
+    stats.covered_pixels = job->covered.all.count;
     const Histogram bins = job->counts.bins();
     for (uint32_t bin = 0; bin < budget_bins; ++bin) {
         stats.shaded_pixels += bins[bin];
@@ -99,7 +102,7 @@ void Frame::finish(Job* job) const {
     stats.bent_normals = job->counts.bent;
     stats.samples = job->samples;
     stats.device_bytes = job->scene.device_bytes() + next.gbuffer.bytes() + next.shading.bytes() +
-                         (next.prediction ? next.prediction->bytes() : 0) + job->list.entries.bytes() + sequence_->buffer.bytes();
+                         (next.prediction ? next.prediction->bytes() : 0) + job->list.entries.bytes() + job->covered.entries.bytes() + sequence_->buffer.bytes();
     stats.milliseconds = next.plan.total_milliseconds();
     stats.bandwidth_milliseconds =
         next.plan.milliseconds_of({"environment", "bandwidth", "pyramids", "classify", "list", "estimate"});
@@ -111,16 +114,16 @@ void Frame::finish(Job* job) const {
 
 Forecast Frame::predict(Job* job) const {
     Result& next = *job->result;
-    if (settings.method() == Method::reference) return passes::coverage(next.gbuffer, width_, height_);
+    if (settings.method() == Method::reference) return {double(job->covered.all.count), 0, 0};
     job->scene.light->bandwidth(settings.band_rule());
     for (const Material* material : job->slots.materials) material->pilots(settings.band_rule(), settings.pilots());
     next.plan.finished("environment", "bandwidth of the map and the lobes; once for each", job->scene.light->device_bytes(), 0, "");
 
     const Prediction& prediction = next.prediction.emplace(device_->gl(), width_, height_, settings.coarsest_level());
-    passes::predict(*device_, job->scene, job->slots, job->slot_of, settings, width_, height_, next.gbuffer, prediction);
-    const Forecast forecast = passes::forecast(*device_, next.gbuffer, prediction, width_, height_);
+    passes::predict(*device_, job->scene, job->slots, job->slot_of, settings, height_, job->covered, next.gbuffer, prediction);
+    const Forecast forecast = passes::forecast(*device_, job->covered, prediction, height_);
     next.plan.finished("bandwidth", text("eq. 5, 6 and 9 with ", settings.pilots(), " directions"),
-                       prediction.bandwidth.bytes() + prediction.prediction.bytes(), pixels(), "pixels");
+                       prediction.bandwidth.bytes() + prediction.prediction.bytes(), job->covered.all.count, "pixels");
     return forecast;
 }
 
@@ -136,12 +139,13 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
                            prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
     }
     job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), settings,
-                                   control->witnesses(), width_, height_, next.gbuffer, prediction, next.shading);
+                                   control->witnesses(), job->covered, next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
-                       next.shading.decision.bytes(), pixels(), "pixels");
+                       next.shading.decision.bytes(), job->covered.all.count, "pixels");
     const Budget& budget = control->plan(job->counts.bins(), next.plan.total_milliseconds());
-    job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, width_, height_, next.gbuffer, next.shading);
-    next.plan.finished("list", "pixels to shade, longest first", job->list.entries.bytes(), pixels(), "pixels");
+    job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, job->covered, next.gbuffer,
+                                     next.shading);
+    next.plan.finished("list", "pixels to shade, longest first", job->list.entries.bytes(), job->covered.all.count, "pixels");
 }
 
 void Frame::shade(Job* job, uint32_t seed) const {
@@ -153,8 +157,8 @@ void Frame::shade(Job* job, uint32_t seed) const {
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
                        list.total_samples, "samples");
     if (!next.prediction || settings.coarsest_level() == 0) return;
-    passes::upsample(*device_, *job->scene.camera, settings, width_, height_, next.gbuffer, *next.prediction, next.shading);
-    next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, pixels(), "pixels");
+    passes::upsample(*device_, *job->scene.camera, settings, job->covered, next.gbuffer, *next.prediction, next.shading);
+    next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count, "pixels");
 }
 
 void Frame::measure(Job* job) const {
@@ -162,6 +166,7 @@ void Frame::measure(Job* job) const {
     const RoundPixels pixels = next.read_round();
     next.estimate = estimate_error(pixels, next.slot_of, job->slots.materials.size());
     job->samples = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
+    next.plan.count("shade", job->samples);
     next.plan.finished("estimate", text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
                                         std::sqrt(next.estimate.interpolation)), 0, this->pixels(), "pixels");
 }
@@ -203,6 +208,7 @@ void Frame::accumulate(Job* job) const {
         shade(job, settings.seed() + frame);
         add_radiance(next.shading.radiance, &scratch, &sum);
         job->samples += each;
+        next.plan.count("shade", job->samples);
         job->done += job->part;
     }
     for (double value : sum) next.accumulated.push_back(float(value / frames));

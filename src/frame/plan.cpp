@@ -22,6 +22,11 @@ void Plan::finished(const char* name, const std::string& reason, uint64_t bytes,
     }
 }
 
+void Plan::count(const char* name, uint64_t invocations) {
+    for (Pass& pass : passes_)
+        if (pass.name == name) pass.invocations = invocations;
+}
+
 double Plan::milliseconds_of(const std::vector<std::string>& names) const {
     double sum = 0;
     for (const Pass& pass : passes_)

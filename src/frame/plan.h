@@ -25,6 +25,9 @@ public:
     // Waits for the device and books the time since the last call on this pass.
     void finished(const char* name, const std::string& reason, uint64_t bytes, uint64_t invocations, const char* unit);
 
+    // Corrects what a pass did, where that is known only later.
+    void count(const char* name, uint64_t invocations);
+
     const std::vector<Pass>& passes() const { return passes_; }
     double total_milliseconds() const { return milliseconds(begun_, mark_); }
     double milliseconds_of(const std::vector<std::string>& names) const;

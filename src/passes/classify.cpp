@@ -7,7 +7,7 @@
 namespace lightband::passes {
 namespace {
 
-constexpr size_t header = 4;  // covered, bent, saturated, unused: before the histogram
+constexpr size_t header = 4;  // bent, saturated, two unused: before the histogram
 
 std::string definitions(const Settings& settings, const Prediction* prediction) {
     std::string result = text("BINS ", budget_bins);
@@ -32,8 +32,7 @@ Histogram Counts::bins() const {
 }
 
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction* prediction,
-                const Shading& target) {
+                double witnesses, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
@@ -57,15 +56,17 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_image(gl, 3, target.sample_count, GL_R32UI);
     bind_storage(gl, 0, counts);
-    dispatch_pixels(gl, width, height);
+    const uint8_t nothing_seen = 0;
+    gl.ClearTexImage(target.decision.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &nothing_seen);
+    dispatch_covered(gl, program, covered, covered.all);
 
     std::vector<uint32_t> raw(header + slots * 2 * budget_bins);
     counts.read(0, raw.size() * sizeof(uint32_t), raw.data());
-    return {raw[0], raw[1], raw[2], std::vector<uint32_t>(raw.begin() + header, raw.end())};
+    return {raw[0], raw[1], std::vector<uint32_t>(raw.begin() + header, raw.end())};
 }
 
-ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget, uint32_t width,
-                         uint32_t height, const GBuffer& gbuffer, const Shading& target) {
+ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget,
+                         const Covered& covered, const GBuffer& gbuffer, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const size_t parts = counts.histogram.size() / budget_bins;  // two of each slot
     ShadingList list;
@@ -92,14 +93,15 @@ ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Cou
     list.entries = gl::Buffer(gl, std::max<size_t>(place, 1) * sizeof(uint32_t), nullptr);
     list.entries_texture = gl::Texture::of_buffer(gl, GL_R32UI, list.entries);
     const gl::Buffer cursor_buffer(gl, cursors.size() * sizeof(uint32_t), cursors.data());
-    device.compute("scatter", text("BINS ", budget_bins)).use();
+    const gl::Program& program = device.compute("scatter", text("BINS ", budget_bins));
+    program.use();
     bind_texture(gl, 0, target.decision);
     bind_texture(gl, 1, gbuffer.material);
     bind_texture(gl, 2, slot_of.texture);
     bind_storage(gl, 0, cursor_buffer);
     bind_storage(gl, 1, list.entries);
     bind_image(gl, 0, target.sample_count, GL_R32UI);
-    dispatch_pixels(gl, width, height);
+    dispatch_covered(gl, program, covered, covered.all);
     return list;
 }
 

@@ -10,7 +10,7 @@
 namespace lightband::passes {
 
 struct Counts {
-    uint32_t covered = 0, bent = 0, saturated = 0;
+    uint32_t bent = 0, saturated = 0;
     std::vector<uint32_t> histogram;  // (slot * 2 + whether a former round shaded it) * budget_bins + bin
 
     Histogram bins() const;  // over all slots
@@ -19,8 +19,7 @@ struct Counts {
 // Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: the part of
 // those that might be interpolated that are shaded all the same.
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction* prediction,
-                const Shading& target);
+                double witnesses, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
 
 // The pixels to shade: slot by slot, those of former rounds apart, by falling sample count.
 struct ShadingList {
@@ -40,7 +39,7 @@ struct ShadingList {
 // loops, which the shading loop has not more than eight of); and a block of the (0,2)-sequence has this length.
 constexpr uint32_t part_samples = 4096;
 
-ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget, uint32_t width,
-                         uint32_t height, const GBuffer& gbuffer, const Shading& target);
+ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget,
+                         const Covered& covered, const GBuffer& gbuffer, const Shading& target);
 
 }  // namespace lightband::passes

@@ -50,7 +50,7 @@ SlotTable slot_table(const gl::Functions& gl, const Scene::Slots& slots) {
 }
 
 void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const SlotTable& slot_of,
-             const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction& target) {
+             const Settings& settings, uint32_t height, const Covered& covered, const GBuffer& gbuffer, const Prediction& target) {
     const gl::Functions& gl = device.gl();
     const EnvironmentBandwidth& light = scene.light->bandwidth(settings.band_rule());
     const gl::Buffer pilots = all_pilots(gl, slots, settings);
@@ -76,19 +76,16 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
     bind_texture(gl, 5, slot_of.texture);
     bind_image(gl, 0, target.bandwidth, GL_RGBA32F);
     bind_image(gl, 1, target.prediction, GL_RG32F);
-    dispatch_pixels(gl, width, height);
+    // Where nothing is seen, nothing arrives.
+    const float zeros[4] = {0, 0, 0, 0};
+    gl.ClearTexImage(target.bandwidth.name(), 0, GL_RGBA, GL_FLOAT, zeros);
+    gl.ClearTexImage(target.prediction.name(), 0, GL_RG, GL_FLOAT, zeros);
+    dispatch_covered(gl, program, covered, covered.all);
 }
 
-Forecast coverage(const GBuffer& gbuffer, uint32_t width, uint32_t height) {
-    std::vector<uint8_t> material(size_t(width) * height);
-    gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
+Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& prediction, uint32_t height) {
     Forecast result;
-    result.covered = double(material.size() - size_t(std::count(material.begin(), material.end(), 0)));
-    return result;
-}
-
-Forecast forecast(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t width, uint32_t height) {
-    Forecast result = coverage(gbuffer, width, height);
+    result.covered = covered.all.count;
     if (result.covered == 0) return result;
     result.mean_radiance = row_sums(device, prediction, height, "", 0) / result.covered;
     result.relative_deviation = row_sums(device, prediction, height, "DEVIATIONS", result.mean_radiance) / result.covered;

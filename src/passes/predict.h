@@ -3,6 +3,7 @@
 
 #include "frame/control.h"
 #include "frame/targets.h"
+#include "passes/covered.h"
 #include "scene/scene.h"
 
 namespace lightband::passes {
@@ -16,11 +17,9 @@ SlotTable slot_table(const gl::Functions& gl, const Scene::Slots& slots);
 
 // Bandwidth and variance of every pixel (shaders/bandwidth.glsl).
 void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const SlotTable& slot_of,
-             const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer, const Prediction& target);
+             const Settings& settings, uint32_t height, const Covered& covered, const GBuffer& gbuffer, const Prediction& target);
 
-// covered alone: what a frame knows that predicts nothing.
-Forecast coverage(const GBuffer& gbuffer, uint32_t width, uint32_t height);
-Forecast forecast(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t width, uint32_t height);
+Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& prediction, uint32_t height);
 
 // Levels (eq. 11) and relative variances with their min and max pyramids (shaders/pyramid.glsl). scales: factor on the bandwidth of
 // each slot.

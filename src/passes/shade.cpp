@@ -76,13 +76,12 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
     }
 }
 
-void upsample(gl::Device& device, const Camera& camera, const Settings& settings, uint32_t width, uint32_t height,
-              const GBuffer& gbuffer, const Prediction& prediction, const Shading& target) {
+void upsample(gl::Device& device, const Camera& camera, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
+              const Prediction& prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Program& program = device.compute("upsample");
     set_axes(program, "screen_right", camera.right);
     set_axes(program, "screen_up", camera.up);
-    program.set("coarsest_level", int32_t(settings.coarsest_level()));
     program.use();
     bind_texture(gl, 0, gbuffer.position);
     bind_texture(gl, 1, gbuffer.normal);
@@ -94,7 +93,7 @@ void upsample(gl::Device& device, const Camera& camera, const Settings& settings
     bind_image(gl, 2, target.spread, GL_RG32F);
     for (uint32_t level = settings.coarsest_level(); level-- > 0;) {
         program.set("level", int32_t(level));
-        dispatch_pixels(gl, (width + (1u << level) - 1) >> level, (height + (1u << level) - 1) >> level);
+        dispatch_covered(gl, program, covered, covered.levels[level]);
     }
 }
 

@@ -21,8 +21,8 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
            const SequenceTable& sequence, const ShadingList& list, bool first_round, const GBuffer& gbuffer, const Shading& target,
            const Drawn& drawn);
 
-void upsample(gl::Device& device, const Camera& camera, const Settings& settings, uint32_t width, uint32_t height,
-              const GBuffer& gbuffer, const Prediction& prediction, const Shading& target);
+void upsample(gl::Device& device, const Camera& camera, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
+              const Prediction& prediction, const Shading& target);
 
 void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
                 const Shading& target);

@@ -1,0 +1,12 @@
+// Passes that only covered pixels need run over a list of them: src/passes/covered.h.
+layout(local_size_x = 64) in;
+layout(binding = 15) uniform usamplerBuffer covered;  // y << 16 | x
+uniform uint first, count;                            // part of the list
+
+// False beyond the end of the part.
+bool covered_pixel(out ivec2 at) {
+    uint place = min(gl_GlobalInvocationID.x, count - 1u);
+    uint entry = texelFetch(covered, int(first + place)).r;
+    at = ivec2(entry & 0xffffu, entry >> 16);
+    return gl_GlobalInvocationID.x < count;
+}

@@ -1,0 +1,185 @@
+// Error control: what rounds estimate of their error, and what is planned from it.
+#include "frame/control.h"
+#include "frame/decision.h"
+#include "frame/estimate.h"
+#include "numeric_testing.h"
+
+namespace lightband {
+namespace {
+
+using namespace testing;
+
+constexpr uint8_t interpolated = 1, shaded = 40, witness = shaded | witness_bit;
+
+double normal(Random& random) {  // Box and Muller
+    return std::sqrt(-2 * std::log(1 - random.uniform())) * std::cos(2 * pi * random.uniform());
+}
+
+// A grey frame of known noise: every pixel has `samples` samples of variance `variance` around the radiance 2, and spreads as
+// their two halves would have. Every third pixel is interpolated with the error `bias`, every eighth a witness of it.
+RoundPixels synthetic(Random& random, size_t count, double variance, double bias, uint32_t samples = 64) {
+    RoundPixels pixels;
+    for (size_t i = 0; i < count; ++i) {
+        const double deviation = std::sqrt(variance / samples);
+        const uint8_t decision = i % 8 == 0 ? witness : i % 3 == 0 ? interpolated : shaded;
+        const double spread = deviation * normal(random), noise = deviation * normal(random);
+        const double radiance = 2 + noise;
+        pixels.radiance.insert(pixels.radiance.end(), {float(radiance), float(radiance), float(radiance), 0});
+        const bool drawn = decision != interpolated;
+        // The mean of squares whose unbiased variance is the given one; or the variance of the mean.
+        pixels.radiance.back() = float(drawn ? radiance * radiance + variance * (samples - 1) / samples : variance / samples);
+        // Two independent deviations of the two replicates from the interpolated value.
+        const double a = bias + 2 * deviation * normal(random), b = bias + 2 * deviation * normal(random);
+        pixels.spread.insert(pixels.spread.end(), {float(spread), decision == witness ? float(a * b) : 0});
+        pixels.sample_count.push_back(drawn ? samples : 0);
+        pixels.decision.push_back(decision);
+        pixels.material.push_back(1);
+    }
+    return pixels;
+}
+
+// Over 40,000 pixels the mean of squared normals is known to sqrt(2 / 40000) = 0.7 %, of 5,000 products to a few percent; noise of
+// 2.5 % in the denominator adds three times its square.
+void the_error_that_is_there_is_found(void**) {
+    Random random(11);
+    const double variance = 0.16, bias = 0.1, scale = 2.02;
+    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, variance, bias), {0}, 1);
+    const double noise = variance / 64 / (scale * scale);
+    check_close("noise", estimate.noise / noise, 1, 0.03);
+    check_close("stratification", estimate.stratification, 1, 0.03);
+    const double part = double(estimate.slots[0].interpolated) / 40000;
+    check_close("interpolation", estimate.interpolation / (bias * bias / (scale * scale) * part), 1, 0.1);
+    check_close("error", estimate.error(), std::sqrt(estimate.noise + estimate.interpolation), 0);
+}
+
+void noise_is_not_taken_for_interpolation(void**) {
+    Random random(12);
+    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, 0.64, 0), {0}, 1);
+    // A mean of 5,000 products of independent normals is within four standard errors of 0.
+    assert_true(estimate.slots[0].interpolation <= 4 * estimate.slots[0].interpolation_deviation);
+}
+
+void the_root_mean_square_of_pixels_is_the_frame(void**) {
+    Random random(13);
+    const RoundPixels pixels = synthetic(random, 5000, 0.16, 0.1);
+    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1);
+    std::vector<float> shape(5000);
+    for (float& value : shape) value = float(random.uniform());
+    double sum = 0;
+    for (float error : pixel_errors(pixels, estimate, {0}, shape)) sum += double(error) * error;
+    check_close("root mean square", std::sqrt(sum / 5000) / estimate.error(), 1, 1e-5);  // floats, summed in double precision
+}
+
+void a_frame_without_light_has_no_error(void**) {
+    RoundPixels pixels;
+    pixels.radiance.assign(40, 0);
+    pixels.spread.assign(20, 0);
+    pixels.sample_count.assign(10, 8);
+    pixels.decision.assign(10, shaded);
+    pixels.material.assign(10, 1);
+    assert_true(estimate_error(pixels, {0}, 1).error() == 0);
+    pixels.material.assign(10, 0);
+    assert_true(estimate_error(pixels, {0}, 1).error() == 0);
+}
+
+// ---- Planning ---------------------------------------------------------------------------------------
+
+Histogram some_histogram() {
+    Histogram histogram(budget_bins);
+    histogram[30] = 1000;
+    histogram[33] = 500;
+    histogram[36] = 20;
+    return histogram;
+}
+
+void a_budget_reaches_the_noise_asked_with_the_fewest_samples(void**) {
+    const Histogram histogram = some_histogram();
+    for (const double noise : {100.0, 10.0, 1.0, 0.1}) {
+        const Budget budget = plan_noise(histogram, noise, 1 << 20, Allocation::least_error);
+        check_at_most("noise", predicted_noise(histogram, budget, Allocation::least_error), noise);
+        // A tenth less of every sample misses it: but for the least number that every pixel gets.
+        Budget fewer = budget;
+        for (uint32_t& samples : fewer) samples = std::max(least_samples, uint32_t(0.9 * samples));
+        if (fewer != budget) assert_true(predicted_noise(histogram, fewer, Allocation::least_error) > noise);
+    }
+    // What cannot be reached is approached as far as the most samples let.
+    for (uint32_t samples : plan_noise(histogram, 0, 128, Allocation::least_error)) assert_true(samples <= 128);
+}
+
+Settings asking(const char* name, double value) {
+    Settings settings;
+    settings.set_number(name, value);
+    return settings;
+}
+
+ErrorEstimate estimate_of(double noise, double interpolation) {
+    ErrorEstimate estimate;
+    estimate.noise = noise;
+    estimate.interpolation = interpolation;
+    estimate.slots = {{1000, 600, 100, interpolation, 0}};
+    return estimate;
+}
+
+void rounds_stop_where_the_error_is_reached(void**) {
+    const Settings settings = asking("target_error", 0.05);
+    Control control(settings, {1520, 1, 1}, 1, {}, 0);
+    control.plan(some_histogram(), 0);
+    assert_false(control.again(estimate_of(0.03 * 0.03, 0.02 * 0.02), {}));
+}
+
+void noise_asks_for_samples_and_interpolation_for_levels(void**) {
+    const Settings settings = asking("target_error", 0.05);
+    Control control(settings, {1520, 1, 1}, 1, {}, 0);
+    const Budget first = control.plan(some_histogram(), 0);
+    const float scale = control.scales()[0];
+    assert_true(control.again(estimate_of(0.2 * 0.2, 0), {}));
+    assert_true(control.scales()[0] == scale);
+    const Budget second = control.plan(some_histogram(), 0);
+    assert_true(second[33] > 4 * first[33]);  // a sixteenth of the noise by four times the samples or more
+    assert_true(control.again(estimate_of(0.02 * 0.02, 0.1 * 0.1), {}));
+    assert_true(control.scales()[0] > scale);
+}
+
+void a_time_is_shared_between_two_rounds(void**) {
+    const Settings settings = asking("time_budget", 1000);
+    Pace pace;
+    pace.samples_per_millisecond = 1000;
+    pace.round_milliseconds = 20;
+    Control control(settings, {1520, 1, 1}, 1, pace, 10);
+    const Histogram histogram = some_histogram();
+    const auto samples = [&](const Budget& budget) {
+        double sum = 0;
+        for (uint32_t bin = 0; bin < budget_bins; ++bin) sum += double(histogram[bin]) * budget[bin];
+        return sum;
+    };
+    const double first = samples(control.plan(histogram, 10));
+    check_close("first round, milliseconds", first / 1000, 0.3 * (1000 - 10 - 12), 2);
+    RoundCost cost;
+    cost.samples = uint64_t(first);
+    cost.shading_milliseconds = 2 * first / 1000;  // half as fast as it was thought to be
+    cost.other_milliseconds = 20;
+    cost.elapsed_milliseconds = 10 + cost.shading_milliseconds + 20;
+    assert_true(control.again(estimate_of(0.01, 0), cost));
+    const double second = samples(control.plan(histogram, cost.elapsed_milliseconds)) - first;
+    check_close("second round, milliseconds", second / 500, 1000 - cost.elapsed_milliseconds - 12, 4);
+    cost.elapsed_milliseconds = 990;
+    assert_false(control.again(estimate_of(0.01, 0), cost));
+}
+
+}  // namespace
+}  // namespace lightband
+
+int main() {
+    using namespace lightband;
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(the_error_that_is_there_is_found),
+        cmocka_unit_test(noise_is_not_taken_for_interpolation),
+        cmocka_unit_test(the_root_mean_square_of_pixels_is_the_frame),
+        cmocka_unit_test(a_frame_without_light_has_no_error),
+        cmocka_unit_test(a_budget_reaches_the_noise_asked_with_the_fewest_samples),
+        cmocka_unit_test(rounds_stop_where_the_error_is_reached),
+        cmocka_unit_test(noise_asks_for_samples_and_interpolation_for_levels),
+        cmocka_unit_test(a_time_is_shared_between_two_rounds),
+    };
+    return cmocka_run_group_tests_name("control", tests, nullptr, nullptr);
+}
