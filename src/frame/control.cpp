@@ -21,12 +21,12 @@ constexpr double aim = 0.88, good_enough = 0.96;
 // drawn are never wasted, those that were not needed are.
 constexpr double expected_correction = 0.04;
 constexpr uint32_t most_rounds = 8;
-// Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 was measured.
-constexpr double stratified_gain = 1.15;
+// Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
+constexpr double stratified_gain = 1.25;
 // The scale grows with the squared error of interpolation over what is allowed. For a smooth picture the fourth root would do; near
 // edges, where most of it comes from, it falls more slowly. Steps below the least would not be worth a new classification.
 constexpr double growth_power = 0.35, least_growth = 1.02, most_growth = 4;
-// A round that did not suffice is followed by one of at most this part of its noise, whatever else was wrong.
+// A round that did not suffice, though no level was at fault, is followed by one of at most this part of its noise.
 constexpr double least_progress = 0.7;
 // Witnesses that tell, and the part of pixels that cost little.
 constexpr double telling_witnesses = 256, cheap_witnesses = 1.0 / 32;
@@ -148,7 +148,7 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     const bool grown = improve_levels(estimate);
     const double goal = aim * target, kept = std::min(estimate.interpolation, interpolation_share * goal * goal);
     // Stratified points gain more than independent ones from being more.
-    const double wanted = std::min((goal * goal - kept) / estimate.noise, least_progress);
+    const double wanted = std::min((goal * goal - kept) / estimate.noise, grown ? 1 : least_progress);
     noise_goal_ = estimate.noise * std::pow(wanted, 1 / stratified_gain);
     const bool at_most = std::all_of(budget_.begin(), budget_.end(), [&](uint32_t n) { return n >= settings_.max_samples(); });
     return grown || !at_most;

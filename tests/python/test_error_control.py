@@ -1,0 +1,151 @@
+"""Asking for an error or a time: what was asked, what is answered, and what is true."""
+
+import numpy as np
+import pytest
+
+import lightband
+from test_method import LUMINANCE, directions, light, render
+
+SIZE = 96, 80
+
+
+def luminance(frame):
+    return frame.color[..., :3].astype(np.float64) @ LUMINANCE
+
+
+def true_error(frame, a, b):
+    """Relative error by two independent references, whose noise cancels."""
+    covered = frame.material > 0
+    reference = 0.5 * (a + b)[covered]
+    scale = reference + 0.01 * reference.mean()
+    own = luminance(frame)[covered]
+    return np.sqrt(max(np.mean((own - a[covered]) * (own - b[covered]) / scale**2), 0))
+
+
+@pytest.fixture(scope="module", params=["rough-gold", "matte-fabric", "interference-paint"])
+def subject(request, context):
+    brdf = context.builtin_brdf(request.param)
+    references = [luminance(render(context, brdf, np.eye(3), samples=8192, seed=seed, coarsest_level=0)) for seed in (91, 92)]
+    return brdf, references
+
+
+@pytest.mark.parametrize("asked", [0.1, 0.03, 0.01])
+def test_what_is_asked_is_reached_and_no_more(context, subject, asked):
+    brdf, references = subject
+    frames = [render(context, brdf, np.eye(3), target_error=asked, seed=seed) for seed in (1, 2, 3)]
+    got = np.array([true_error(frame, *references) for frame in frames])
+    # The issue's bounds: at most 1.5 times what was asked in any frame, at least half of it in the median (a frame of few pixels
+    # cannot stop in the middle of a round, hence a third).
+    assert got.max() < 1.5 * asked
+    assert np.median(got) > asked / 3
+    for frame, true in zip(frames, got):
+        assert frame.stats.error <= asked
+        # The estimate of 3,000 pixels and some 200 witnesses.
+        assert frame.stats.error / 1.5 < true < 1.5 * frame.stats.error
+
+
+@pytest.mark.parametrize("settings", [{"samples": 16}, {"samples": 256}, {"method": "reference", "samples": 64},
+                                      {"samples": 64, "coarsest_level": 0}, {"samples": 16, "accumulate": 8},
+                                      {"sampler": "brdf", "samples": 64}])
+def test_every_frame_knows_its_error(context, subject, settings):
+    brdf, references = subject
+    frame = render(context, brdf, np.eye(3), seed=5, **settings)
+    assert frame.stats.error / 1.6 < true_error(frame, *references) < 1.6 * frame.stats.error
+
+
+def test_the_field_is_the_number_pixel_by_pixel(context, subject):
+    frame = render(context, subject[0], np.eye(3), target_error=0.05)
+    covered = frame.material > 0
+    assert np.sqrt(np.mean(frame.error[covered].astype(np.float64) ** 2)) == pytest.approx(frame.stats.error, rel=1e-5)
+    assert (frame.error[~covered] == 0).all() and (frame.error >= 0).all()
+    parts = np.hypot(frame.stats.noise_error, frame.stats.interpolation_error)
+    assert parts == pytest.approx(frame.stats.error, rel=1e-12)
+
+
+def test_the_field_says_where_the_error_is(context, subject):
+    """Pixels in four groups by their estimated error: their true errors rise in the same order."""
+    brdf, (a, b) = subject
+    frame = render(context, brdf, np.eye(3), samples=64, allocation="constant_variance", sampler="brdf", seed=6)
+    covered = frame.material > 0
+    reference = 0.5 * (a + b)
+    squared = ((luminance(frame) - a) * (luminance(frame) - b) / (reference + 0.01 * reference[covered].mean()) ** 2)[covered]
+    groups = np.array_split(np.argsort(frame.error[covered]), 4)
+    errors = [squared[group].mean() for group in groups]
+    assert errors[0] < errors[3]
+
+
+def test_more_is_asked_more_is_drawn(context, subject):
+    frames = [render(context, subject[0], np.eye(3), target_error=asked) for asked in (0.1, 0.03, 0.01)]
+    assert frames[0].stats.samples < frames[1].stats.samples < frames[2].stats.samples
+
+
+def test_equal_seeds_give_equal_frames(context, subject):
+    first, second = (render(context, subject[0], np.eye(3), target_error=0.05, seed=8) for _ in range(2))
+    assert np.array_equal(first.color, second.color) and first.stats.error == second.stats.error
+
+
+def test_a_time_is_spent(context, subject):
+    """Not a measurement of speed: a budget of ten times another buys a better frame, from more samples."""
+    frames = []
+    for budget in (40.0, 400.0):
+        frame = render(context, subject[0], np.eye(3), time_budget=budget)
+        frames.append(frame)
+    assert frames[1].stats.samples > 2 * frames[0].stats.samples
+    assert frames[1].stats.error < frames[0].stats.error
+
+
+def test_whichever_comes_first(context, subject):
+    brdf = subject[0]
+    easy = render(context, brdf, np.eye(3), target_error=0.2, time_budget=1e6)
+    assert easy.stats.error <= 0.2
+    hard = render(context, brdf, np.eye(3), target_error=1e-5, time_budget=50)
+    assert hard.stats.error > 1e-5 and hard.stats.samples > 0
+
+
+def test_an_error_cannot_be_asked_of_accumulated_frames(context, scene):
+    frame = context.frame(8, 8, target_error=0.1, accumulate=2)
+    with pytest.raises(lightband.StateError, match="accumulate is 2.*target_error"):
+        frame.render(scene)
+
+
+def test_a_black_frame_has_no_error(context):
+    scene = context.scene()
+    scene.environment = context.environment(np.zeros((4, 8, 3), np.float32))
+    scene.add(context.builtin_mesh("sphere", 32), context.lambert(0.5))
+    scene.camera(eye=(0, 0, 3), target=(0, 0, 0))
+    frame = context.frame(16, 16, target_error=0.01)
+    frame.render(scene)
+    assert frame.stats.error == 0 and frame.stats.rounds == 1 and not frame.error.any()
+
+
+def test_a_frame_that_sees_nothing_has_no_error(context):
+    scene = context.scene()
+    scene.environment = context.environment(light(directions()))
+    scene.camera(eye=(0, 0, 3), target=(0, 0, 0))
+    frame = context.frame(16, 16, target_error=0.01)
+    frame.render(scene)
+    assert frame.stats.error == 0 and frame.stats.samples == 0
+
+
+def test_progress_of_rounds_never_goes_back(context, scene):
+    frame = context.frame(64, 64, target_error=0.01)
+    seen = []
+    frame.render(scene, progress=seen.append)
+    assert seen == sorted(seen) and seen[0] == 0 and seen[-1] == 1
+    with pytest.raises(lightband.Cancelled):
+        frame.render(scene, progress=lambda fraction: fraction > 0)
+
+
+@pytest.mark.parametrize("samples", [1, 2, 3, 4, 5])
+def test_the_fewest_samples_are_unbiased(context, samples):
+    """One sample of a pixel comes from the lobe or from the map by chance: many frames of one have the mean of a long one."""
+    brdf = context.ggx(0.3, (0.9, 0.7, 0.4))
+    settings = dict(samples=samples, coarsest_level=0, seed=1)
+    few = render(context, brdf, np.eye(3), accumulate=512, **settings)
+    many = render(context, brdf, np.eye(3), samples=16384, coarsest_level=0, seed=7001)
+    covered = few.material > 0
+    relative = luminance(few)[covered] / luminance(many)[covered] - 1
+    # The mean over 3,000 pixels, whose errors the map's points share: their spread over the root of the frames.
+    spread = few.variance_measured[covered] if samples > 1 else few.variance_predicted[covered]
+    deviation = np.sqrt(spread / (512 * samples)) / luminance(many)[covered]
+    assert abs(relative.mean()) < 4 * deviation.mean() / np.sqrt(10)
