@@ -26,6 +26,8 @@ constexpr double stratified_gain = 1.25;
 // The scale grows with the squared error of interpolation over what is allowed. For a smooth picture the fourth root would do; near
 // edges, where most of it comes from, it falls more slowly. Steps below the least would not be worth a new classification.
 constexpr double growth_power = 0.35, least_growth = 1.02, most_growth = 4;
+// Witnesses are believed where noise is at most this many times the squared error that is aimed at.
+constexpr double trusted_noise = 3;
 // A round that did not suffice, though no level was at fault, is followed by one of at most this part of its noise.
 constexpr double least_progress = 0.7;
 // Witnesses that tell, and the part of pixels that cost little.
@@ -109,6 +111,8 @@ bool Control::improve_levels(const ErrorEstimate& estimate) {
     const double target = aim * settings_.target_error();
     const double goal = target > 0 ? target * target : first_part * estimate.noise;  // what the rest of the time leaves
     const double allowed = interpolation_share * goal;
+    // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again.
+    if (target > 0 && estimate.noise > trusted_noise * goal) return false;
     bool grown = false;
     for (size_t slot = 0; slot < scales_.size(); ++slot) {
         const ErrorEstimate::Slot& seen = estimate.slots[slot];

@@ -28,19 +28,25 @@ double mean_luminance(const RoundPixels& pixels) {
 // that a tiny frame is not believed to be free of noise by luck.
 constexpr double prior_pixels = 8;
 
+// A witness is believed up to an error of as much as the pixel shows: products of few samples' noise go far beyond in both directions,
+// and one of them would drown the others.
+constexpr double largest_square = 1;
+
 // Squared errors of the witnesses of one slot.
 struct WitnessSums {
     double sum = 0, squares = 0;
 };
 
-// A pixel shows at most this many times what the prediction expects: a sample that is far too bright would else raise the mean
-// that its own error is measured by, and hide in it. Sixteen pilots know the mean to better than that.
-constexpr double surprise = 1.5;
+// A pixel shows between these parts of what the prediction expects: a sample that is far too bright would else raise the mean that
+// its own error is measured by, and hide in it; a few that miss the light would make any error look large. Sixteen pilots know the
+// mean to better than that.
+constexpr double least_expected = 0.5, most_expected = 1.5;
 
 // What a pixel's error is relative to.
 double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
     double mean = luminance_at(pixels, at);
-    if (!pixels.expected.empty() && pixels.expected[at] > 0) mean = std::min(mean, surprise * pixels.expected[at]);
+    if (!pixels.expected.empty() && pixels.expected[at] > 0)
+        mean = std::clamp(mean, least_expected * pixels.expected[at], most_expected * pixels.expected[at]);
     return mean + dark_part * mean_luminance;
 }
 
@@ -75,7 +81,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         if (is_interpolated(pixels.decision[i])) ++own.interpolated;
         if (!is_witness(pixels.decision[i])) continue;
         ++own.witnesses;
-        const double square = pixels.spread[2 * i + 1] / (scale * scale);
+        const double square = std::clamp(pixels.spread[2 * i + 1] / (scale * scale), -largest_square, largest_square);
         witnesses[slot].sum += square;
         witnesses[slot].squares += square * square;
     }
