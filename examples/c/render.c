@@ -63,15 +63,15 @@ int main(int argc, char** argv) {
 
     lb_frame frame = NULL;
     check(lb_frame_create(context, 256, 256, &frame), "frame");
-    check(lb_frame_set_number(frame, "samples", 256), "samples");
+    check(lb_frame_set_number(frame, "target_error", 0.02), "target_error");
     check(lb_frame_render(frame, scene, NULL, NULL), "render");
 
     lb_frame_stats stats = LB_FRAME_STATS_INIT;
     check(lb_frame_info(frame, &stats), "statistics");
     printf("%s\n", device_name);
-    printf("shaded %llu of %llu covered pixels in %.0f ms, %.1f light samples per pixel of the frame\n",
-           (unsigned long long)stats.shaded_pixels, (unsigned long long)stats.covered_pixels, stats.milliseconds,
-           mean_sample_count(frame));
+    printf("error about %.1f %% in %u rounds, %.0f ms: %llu of %llu covered pixels shaded, %.1f light samples per pixel\n",
+           100 * stats.error, stats.rounds, stats.milliseconds, (unsigned long long)stats.shaded_pixels,
+           (unsigned long long)stats.covered_pixels, mean_sample_count(frame));
 
     check(lb_frame_save(frame, "knot.exr", "color,depth,bandwidth_image,sample_count", 0.0f), "knot.exr");
     check(lb_frame_save(frame, "knot.png", NULL, 0.0f), "knot.png");

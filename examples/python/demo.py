@@ -1,9 +1,9 @@
 """The embedded default: one object in three materials under a CC0 map, after the first figure of Bagher et al.
 
-    python examples/python/demo.py [--out out] [--width 768] [--samples 256]
+    python examples/python/demo.py [--out out] [--width 768] [--error 0.03]
 
-Writes the picture (EXR with every field, and PNG) and a sheet of all fields, and prints one line: time, pixels shaded, samples,
-error against a reference.
+Asks for an error, writes the picture (EXR with every field, and PNG) and a sheet of all fields, and prints the error that was asked,
+that the frame estimates and that a reference shows, with time, pixels shaded and samples.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from lightband import pictures
 
 ROOT = Path(__file__).resolve().parents[2]
 MATERIALS = ("interference-paint", "red-car-paint", "rough-gold")
-FIELDS = ("color", "depth", "normal", "curvature", "bandwidth_image", "level", "shaded", "sample_count")
+FIELDS = ("color", "depth", "normal", "curvature", "bandwidth_image", "level", "shaded", "sample_count", "error")
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 EXPOSURE = 0.0  # stops, for the PNG
 
@@ -55,7 +55,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=ROOT / "out")
     parser.add_argument("--width", type=int, default=768)
-    parser.add_argument("--samples", type=int, default=256)
+    parser.add_argument("--error", type=float, default=0.03, help="relative error that is asked for")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
 
@@ -63,7 +63,7 @@ def main() -> None:
     print(f"rendering on {context.device_name}")
     scene = build_scene(context)
     size = arguments.width, arguments.width * 3 // 8
-    frame = context.frame(*size, samples=arguments.samples, background="environment")
+    frame = context.frame(*size, target_error=arguments.error, background="environment")
     for what in ("first frame, with its tables", "second, with the driver's last compilations", "adaptive"):
         frame.render(scene, progress=show_progress(what))
     # Every pixel shaded, and many samples: what the error is measured against.
@@ -77,8 +77,9 @@ def main() -> None:
 
     stats = frame.stats
     print(frame.plan)
-    print(f"{stats.milliseconds:.0f} ms, {stats.shaded_pixels / stats.covered_pixels:.0%} of {stats.covered_pixels} pixels "
-          f"shaded, {stats.samples} samples, error {error(frame.color, reference.color, frame.material > 0):.1%} "
+    print(f"error: asked {arguments.error:.1%}, estimated {stats.error:.1%}, against the reference "
+          f"{error(frame.color, reference.color, frame.material > 0):.1%}; {stats.milliseconds:.0f} ms in {stats.rounds} rounds, "
+          f"{stats.shaded_pixels / stats.covered_pixels:.0%} of {stats.covered_pixels} pixels shaded, {stats.samples} samples "
           f"(reference: {reference.stats.milliseconds:.0f} ms, {reference.stats.samples} samples); see {arguments.out}")
 
 

@@ -17,9 +17,11 @@ constexpr double unmeasured_interpolation = 0.08, expected_interpolation = 0.005
 constexpr double interpolation_share = 0.3;
 // Rounds aim below what was asked, by what the estimate may miss; a round that comes this near is the last.
 constexpr double aim = 0.88, good_enough = 0.96;
+// Standard errors of interpolation's estimate that are added before a round is called good enough.
+constexpr double caution = 0.3;
 // Of the variance predicted, stratified points leave a tenth to a half. The first round draws what a smaller part would ask: samples
 // drawn are never wasted, those that were not needed are.
-constexpr double expected_correction = 0.04;
+constexpr double expected_correction = 0.15;
 constexpr uint32_t most_rounds = 8;
 // Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
 constexpr double stratified_gain = 1.25;
@@ -144,7 +146,7 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
         improve_levels(estimate);
         return true;
     }
-    const double careful = std::sqrt(estimate.noise + estimate.interpolation + estimate.interpolation_deviation);
+    const double careful = std::sqrt(estimate.noise + estimate.interpolation + caution * estimate.interpolation_deviation);
     if (careful <= good_enough * target) return false;
     choose_witnesses(estimate);
     const double predicted = predicted_noise(histogram_, budget_, settings_.allocation());

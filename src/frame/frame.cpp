@@ -42,7 +42,7 @@ struct Frame::Job {
     passes::Counts counts;
     passes::ShadingList list;    // of the last round
     uint64_t samples = 0;        // drawn so far
-    double done = 0, part = 1;   // of the progress: before this round, and the round's own
+    double done = 0, part = 0;   // of the progress: before this round, and the round's own
 
     void report(double fraction) const {
         if (progress && progress(std::min(done + part * fraction, 1.0)))
@@ -83,9 +83,9 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     }
     device_->check("rendering a frame");
     finish(&job);
-    result_ = job.result;
-    job.done = job.part = 1;
+    job.done = 1;
     job.report(0);
+    result_ = job.result;
 }
 
 void Frame::finish(Job* job) const {
@@ -94,15 +94,16 @@ void Frame::finish(Job* job) const {
     stats.frames = settings.accumulate();
     stats.covered_pixels = job->covered.all.count;
     const Histogram bins = job->counts.bins();
-    for (uint32_t bin = 0; bin < budget_bins; ++bin) {
-        stats.shaded_pixels += bins[bin];
-        if (settings.method() == Method::adaptive && job->list.samples[bin] >= settings.max_samples()) stats.capped_pixels += bins[bin];
-    }
+    stats.shaded_pixels = job->list.pixels;
+    if (settings.method() == Method::adaptive)
+        for (uint32_t bin = 0; bin < budget_bins; ++bin)
+            if (job->list.samples[bin] >= settings.max_samples()) stats.capped_pixels += bins[bin];
     stats.saturated_pixels = job->counts.saturated;
     stats.bent_normals = job->counts.bent;
     stats.samples = job->samples;
-    stats.device_bytes = job->scene.device_bytes() + next.gbuffer.bytes() + next.shading.bytes() +
-                         (next.prediction ? next.prediction->bytes() : 0) + job->list.entries.bytes() + job->covered.entries.bytes() + sequence_->buffer.bytes();
+    stats.device_bytes = job->scene.device_bytes() + next.gbuffer.bytes() + job->covered.entries.bytes() +
+                         (next.prediction ? next.prediction->bytes() : 0) + next.shading.bytes() + job->list.entries.bytes() +
+                         sequence_->buffer.bytes();
     stats.milliseconds = next.plan.total_milliseconds();
     stats.bandwidth_milliseconds =
         next.plan.milliseconds_of({"environment", "bandwidth", "pyramids", "classify", "list", "estimate"});
@@ -151,14 +152,18 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
 void Frame::shade(Job* job, uint32_t seed) const {
     Result& next = *job->result;
     const passes::ShadingList& list = job->list;
-    passes::shade(*device_, job->scene, job->slots, settings, seed, *sequence_, list, next.stats.rounds == 1, next.gbuffer, next.shading,
-                  [&](uint64_t samples) { job->report(double(samples) / double(std::max<uint64_t>(list.total_samples, 1))); });
+    const auto drawn = [&](uint64_t samples) {
+        job->report(double(samples) / double(std::max<uint64_t>(list.total_samples, 1)));
+    };
+    passes::shade(*device_, job->scene, job->slots, settings, seed, *sequence_, list, next.stats.rounds == 1, next.gbuffer,
+                  next.shading, drawn);
     next.plan.finished("shade", text(list.pixels, " pixels in ", job->slots.materials.size(), " materials"),
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
                        list.total_samples, "samples");
     if (!next.prediction || settings.coarsest_level() == 0) return;
     passes::upsample(*device_, *job->scene.camera, settings, job->covered, next.gbuffer, *next.prediction, next.shading);
-    next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count, "pixels");
+    next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count,
+                       "pixels");
 }
 
 void Frame::measure(Job* job) const {

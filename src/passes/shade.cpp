@@ -13,10 +13,13 @@ namespace {
 constexpr uint64_t dispatch_samples = 1u << 23;
 
 std::string definitions(const Material& material, const Settings& settings) {
-    return material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples) +
-           (settings.sequence() == Sequence::random ? "\nSEQUENCE_RANDOM" : "") +
-           (settings.sampler() == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::clusters, "u\nMAP_WORTH ", map_sample_worth) : "") +
-           (settings.environment_lookup() == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : "");
+    std::string result = material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples);
+    if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
+    if (settings.sampler() == Sampler::combined)
+        result += text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::clusters, "u\nMAP_WORTH ",
+                       map_sample_worth);
+    if (settings.environment_lookup() == Lookup::nearest) result += "\nENVIRONMENT_NEAREST";
+    return result;
 }
 
 void set_axes(const gl::Program& program, const char* name, const Vec3& v) {
@@ -55,6 +58,7 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
             const MapPoints& points = scene.light->points(settings.environment_lookup(), seed);
             bind_texture(gl, 10, points.texture);
             bind_texture(gl, 11, points.cluster_texture);
+            material.bind_importance();
         }
         bind_image(gl, 0, target.radiance, GL_RGBA32F);
         bind_image(gl, 1, target.sample_count, GL_R32UI);

@@ -46,7 +46,7 @@ const MapPoints& Light::points(Lookup lookup, uint32_t seed) const {
 }
 
 size_t Light::device_bytes() const {
-    size_t bytes = texture_.bytes() + points_.buffer.bytes();
+    size_t bytes = texture_.bytes() + points_.buffer.bytes() + points_.cluster_buffer.bytes();
     for (const auto& [rule, bandwidth] : bandwidths_) bytes += bandwidth.moments.bytes() + bandwidth.bandwidth.bytes();
     return bytes;
 }

@@ -10,9 +10,6 @@ namespace lightband {
 
 Material::Material(gl::DevicePtr device, Brdf brdf)
     : device_(std::move(device)), brdf_(std::move(brdf)), sampler_(brdf_) {
-    const LobeImportance importance = lobe_importance(brdf_);
-    importance_ = gl::Buffer(device_->gl(), importance.values.size() * sizeof(float), importance.values.data());
-    importance_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, importance_);
     if (const auto* table = std::get_if<BrdfTable>(&brdf_)) upload_table(*table);
 }
 
@@ -53,7 +50,6 @@ std::string Material::definitions(Lookup lookup) const {
 }
 
 void Material::bind(const gl::Program& program) const {
-    device_->gl().BindTextureUnit(12, importance_texture_.name());
     if (const auto* lambert = std::get_if<Lambert>(&brdf_)) {
         program.set("albedo", {float(lambert->albedo.x), float(lambert->albedo.y), float(lambert->albedo.z)});
     } else if (const auto* ggx = std::get_if<Ggx>(&brdf_)) {
@@ -66,6 +62,15 @@ void Material::bind(const gl::Program& program) const {
         device_->gl().BindTextureUnit(4, lobe_phi_texture_.name());
         device_->gl().BindTextureUnit(9, lobe_albedo_texture_.name());
     }
+}
+
+void Material::bind_importance() const {
+    if (!importance_) {
+        const LobeImportance importance = lobe_importance(brdf_);
+        importance_ = gl::Buffer(device_->gl(), importance.values.size() * sizeof(float), importance.values.data());
+        importance_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, importance_);
+    }
+    device_->gl().BindTextureUnit(12, importance_texture_.name());
 }
 
 const LobeBandwidth& Material::bandwidth(BandRule rule) const {

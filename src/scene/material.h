@@ -22,6 +22,8 @@ public:
     // Definitions of the lobe.glsl variant, and binding of its tables and uniforms.
     std::string definitions(Lookup lookup) const;
     void bind(const gl::Program& program) const;
+    // What the map's clusters are weighed by (src/sampling/lobe_sampler.h), made when first asked for.
+    void bind_importance() const;
 
     const LobeBandwidth& bandwidth(BandRule rule) const;
     const std::vector<Pilot>& pilots(BandRule rule, uint32_t count) const;
@@ -34,8 +36,10 @@ private:
     const Brdf brdf_;
     const LobeSampler sampler_;
     float table_scale_ = 1;
-    gl::Buffer cells_, lobe_x_, lobe_phi_, lobe_albedo_, importance_;
-    gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_, lobe_albedo_texture_, importance_texture_;
+    gl::Buffer cells_, lobe_x_, lobe_phi_, lobe_albedo_;
+    gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_, lobe_albedo_texture_;
+    mutable gl::Buffer importance_;
+    mutable gl::Texture importance_texture_;
     mutable std::map<BandRule, LobeBandwidth> bandwidths_;
     mutable std::map<std::pair<BandRule, uint32_t>, std::vector<Pilot>> pilots_;
 };

@@ -1,0 +1,71 @@
+"""Only what the scene needs: the plan of a frame holds what was asked for and nothing else, and what is not asked for costs no byte."""
+
+import numpy as np
+import pytest
+
+PREDICTION = ["environment", "bandwidth", "pyramids"]
+
+
+@pytest.fixture
+def sphere(context, environment):
+    """A scene of its own, so that nothing that another frame needed is held by its map and material."""
+    scene = context.scene()
+    scene.environment = context.environment(np.linspace(0.5, 1.5, 16 * 32 * 3, dtype=np.float32).reshape(16, 32, 3))
+    scene.add(context.builtin_mesh("sphere", 32), context.ggx(0.3, (0.9, 0.7, 0.4)))
+    scene.camera(eye=(0, 0, 2), target=(0, 0, 0))
+    return scene
+
+
+def rendered(context, scene, **settings):
+    frame = context.frame(64, 64, **settings)
+    frame.render(scene)
+    return frame
+
+
+def passes(frame):
+    return [line.split()[0] for line in frame.plan.splitlines()][:-1]  # the last line is the total
+
+
+def test_an_adaptive_frame(context, sphere):
+    frame = rendered(context, sphere, samples=16)
+    assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate"]
+    assert frame.stats.rounds == 1
+
+
+def test_a_reference_predicts_and_interpolates_nothing(context, sphere):
+    frame = rendered(context, sphere, method="reference", samples=16)
+    assert passes(frame) == ["gbuffer", "covered", "classify", "list", "shade", "estimate"]
+    assert frame.stats.interpolation_error == 0
+
+
+def test_without_levels_nothing_is_interpolated(context, sphere):
+    frame = rendered(context, sphere, samples=16, coarsest_level=0)
+    assert "upsample" not in passes(frame)
+    assert frame.stats.shaded_pixels == frame.stats.covered_pixels
+
+
+def test_no_background_no_pass(context, sphere):
+    assert "background" not in passes(rendered(context, sphere, samples=16))
+    assert passes(rendered(context, sphere, samples=16, background="environment"))[-1] == "background"
+
+
+def test_rounds_repeat_passes_and_add_none(context, sphere):
+    frame = rendered(context, sphere, target_error=0.01)
+    assert frame.stats.rounds > 1
+    assert passes(frame) == passes(rendered(context, sphere, samples=16))
+
+
+def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):
+    """The map's directions, 65,536 of 32 bytes, and 64 clusters of as many are made when they are first asked for."""
+    before = rendered(context, sphere, samples=16, coarsest_level=0, sampler="brdf").stats.device_bytes
+    after = rendered(context, sphere, samples=16, coarsest_level=0, sampler="combined").stats.device_bytes
+    importance = 64 * 16 * 16 * 4
+    assert after - before == 65536 * 32 + 64 * 32 + importance
+
+
+def test_a_pixel_that_sees_nothing_is_in_no_list(context, sphere):
+    """Passes over covered pixels count those alone."""
+    frame = rendered(context, sphere, samples=16)
+    for line in frame.plan.splitlines():
+        if line.split()[0] in ("bandwidth", "classify", "upsample"):
+            assert f" {frame.stats.covered_pixels} pixels" in line
