@@ -250,7 +250,14 @@ LB_API lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const fl
 
 /* ---- Frame -------------------------------------------------------------------------------------- */
 
-/* A picture of width x height pixels, each 1 .. 8192, with the default settings. */
+/* A picture of width x height pixels, each 1 .. 8192, with the default settings. A frame is asked for one of three things:
+ *   "target_error"  a relative error (docs/conventions.md). It is shaded in rounds until its own estimate is below; a frame that
+ *                   cannot get there (max_samples, 8 rounds; one frame's directions of the map leave about 0.2 %) says what it
+ *                   reached in lb_frame_stats.error
+ *   "time_budget"   milliseconds. It becomes as good as they let; how fast the device is, the frame learns from its own
+ *                   renders, so that the first (which also builds programs) may miss. With target_error: whichever comes first
+ *   "samples"       a number of light samples per shaded pixel
+ * With a time budget two renders differ; otherwise equal seeds give equal frames. */
 LB_API lb_result lb_frame_create(lb_context context, uint32_t width, uint32_t height, lb_frame* frame);
 
 /* Settings by name. The table of names, types, ranges, defaults and meanings: lb_setting_at.
@@ -299,7 +306,7 @@ typedef struct lb_frame_stats {
     uint64_t bent_normals;       /* covered pixels whose shading normal faced away and was turned to the eye */
     uint64_t device_bytes;       /* device memory held by the scene and this frame */
     double milliseconds;         /* whole render call */
-    double bandwidth_milliseconds; /* of it: everything that prediction adds (bandwidth, pyramids, lists) */
+    double bandwidth_milliseconds; /* of it: everything beside shading and geometry (bandwidth, pyramids, lists, estimate) */
     double shading_milliseconds;   /* of it: the shading integral */
     double error;                  /* relative error of the frame, as the frame itself estimates it (docs/conventions.md):
                                       root of the squares of the two below. The field "error" holds it pixel by pixel */

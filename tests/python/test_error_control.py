@@ -149,3 +149,33 @@ def test_the_fewest_samples_are_unbiased(context, samples):
     spread = few.variance_measured[covered] if samples > 1 else few.variance_predicted[covered]
     deviation = np.sqrt(spread / (512 * samples)) / luminance(many)[covered]
     assert abs(relative.mean()) < 4 * deviation.mean() / np.sqrt(10)
+
+
+def one_bright_texel():
+    radiance = np.full((32, 64, 3), 0.1, np.float32)
+    radiance[10, 20] = 1e6
+    return radiance
+
+
+EXTREME_MAPS = {"sun of 1e6": one_bright_texel(), "one texel": np.ones((1, 1, 3), np.float32),
+                "denormal": np.full((4, 8, 3), 1e-39, np.float32), "brightest": np.full((4, 8, 3), 1e15, np.float32)}
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, 97), (53, 31)])
+@pytest.mark.parametrize("map_name", EXTREME_MAPS)
+@pytest.mark.parametrize("material", ["mirror", "black", "rough"])
+@pytest.mark.parametrize("asked", [{"target_error": 0.05}, {"time_budget": 20}])
+def test_extremes_have_an_error_too(context, size, map_name, material, asked):
+    """Finite pictures and estimates whatever is asked; and where a closed form is known, the error is what it says."""
+    brdf = {"mirror": lambda: context.ggx(1e-4, (1, 1, 1)), "black": lambda: context.lambert(0),
+            "rough": lambda: context.ggx(0.5, (0.5, 0.5, 0.5))}[material]()
+    scene = context.scene()
+    scene.environment = context.environment(EXTREME_MAPS[map_name])
+    scene.add(context.builtin_mesh("sphere", 32), brdf)
+    scene.camera(eye=(0, 0, 2), target=(0, 0, 0))
+    frame = context.frame(*size, max_samples=1024, **asked)
+    frame.render(scene)
+    assert np.isfinite(frame.color).all() and (frame.color >= 0).all()
+    assert np.isfinite(frame.error).all() and np.isfinite(frame.stats.error)
+    if material == "black":
+        assert frame.stats.error == 0 and not frame.color[..., :3].any()

@@ -10,7 +10,7 @@ PREDICTION = ["environment", "bandwidth", "pyramids"]
 def sphere(context, environment):
     """A scene of its own, so that nothing that another frame needed is held by its map and material."""
     scene = context.scene()
-    scene.environment = context.environment(np.linspace(0.5, 1.5, 16 * 32 * 3, dtype=np.float32).reshape(16, 32, 3))
+    scene.environment = context.environment(np.random.default_rng(1).uniform(size=(16, 32, 3)).astype(np.float32) ** 8)
     scene.add(context.builtin_mesh("sphere", 32), context.ggx(0.3, (0.9, 0.7, 0.4)))
     scene.camera(eye=(0, 0, 2), target=(0, 0, 0))
     return scene

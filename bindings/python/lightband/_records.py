@@ -51,7 +51,7 @@ class FrameStats:
     milliseconds: float
     """The whole render call."""
     bandwidth_milliseconds: float
-    """Of it: everything that prediction adds (bandwidth, pyramids, lists)."""
+    """Of it: everything beside shading and geometry (bandwidth, pyramids, lists, estimate)."""
     shading_milliseconds: float
     """Of it: the shading integral."""
     error: float
