@@ -75,7 +75,7 @@ def main() -> None:
     parser.add_argument("--scenes", type=int, default=SCENES, help="the first N of the list")
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--large", type=int, default=12, help="the first N scenes are also measured at twice the size")
-    parser.add_argument("--fixed-every", type=int, default=3, help="every Nth scene is also rendered with fixed settings")
+    parser.add_argument("--fixed-every", type=int, default=7, help="every Nth scene is also rendered with fixed settings; prime to 5, 8 and 6")
     parser.add_argument("--reference-samples", type=int, default=2048)
     parser.add_argument("--only-report", action="store_true")
     arguments = parser.parse_args()

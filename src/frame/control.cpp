@@ -31,7 +31,8 @@ constexpr double growth_power = 0.35, least_growth = 1.02, most_growth = 4;
 // Witnesses are believed where noise is at most this many times the squared error that is aimed at.
 constexpr double trusted_noise = 3;
 // A round that did not suffice, though no level was at fault, is followed by one of at most this part of its noise.
-constexpr double least_progress = 0.7;
+// And of no less than that other part: the noise of few samples is itself known badly, often far too high.
+constexpr double least_progress = 0.7, most_progress = 0.1;
 // Witnesses that tell, and the part of pixels that cost little.
 constexpr double telling_witnesses = 256, cheap_witnesses = 1.0 / 32;
 // Part of the time that the first of two rounds may take, and the least part for which another is worth its lists.
@@ -154,7 +155,7 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     const bool grown = improve_levels(estimate);
     const double goal = aim * target, kept = std::min(estimate.interpolation, interpolation_share * goal * goal);
     // Stratified points gain more than independent ones from being more.
-    const double wanted = std::min((goal * goal - kept) / estimate.noise, grown ? 1 : least_progress);
+    const double wanted = std::clamp((goal * goal - kept) / estimate.noise, most_progress, grown ? 1 : least_progress);
     noise_goal_ = estimate.noise * std::pow(wanted, 1 / stratified_gain);
     const bool at_most = std::all_of(budget_.begin(), budget_.end(), [&](uint32_t n) { return n >= settings_.max_samples(); });
     return grown || !at_most;
