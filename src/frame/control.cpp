@@ -9,7 +9,8 @@ namespace {
 
 // Error of a frame whose levels follow its bandwidth unscaled, by interpolation alone; it falls with the square of the spacing.
 // Measured on scanned meshes it lies between 0.01 (a matte fabric) and 0.1 (a clear coat under a probe). A frame of given
-// samples does not measure and takes the upper end; one that corrects itself begins near the middle.
+// samples does not measure and takes the upper end; one that corrects itself begins below the lower, since levels can be refined
+// later and never coarsened.
 constexpr double unmeasured_interpolation = 0.08, expected_interpolation = 0.005;
 
 // Share of interpolation in the squared error. Pixels shaded grow about as the scale, the square of interpolation's error falls
@@ -19,8 +20,8 @@ constexpr double interpolation_share = 0.3;
 constexpr double aim = 0.88, good_enough = 0.96;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 0.3;
-// Of the variance predicted, stratified points leave a tenth to a half. The first round draws what a smaller part would ask: samples
-// drawn are never wasted, those that were not needed are.
+// Of the variance predicted, rounds were seen to leave a fifth to one and a half. The first draws what a smaller part would ask:
+// samples drawn early are kept, samples drawn beyond need are lost.
 constexpr double expected_correction = 0.15;
 constexpr uint32_t most_rounds = 8;
 // Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.

@@ -3,8 +3,10 @@
 #include <memory>
 
 #include "brdf_testing.h"
+#include "bandwidth/octahedral.h"
 #include "numeric_testing.h"
 #include "sampling/lobe_sampler.h"
+#include "sampling/map_sampler.h"
 #include "sampling/pilots.h"
 #include "sampling/sequence.h"
 
@@ -343,6 +345,94 @@ void pilots_stand_for_their_solid_angles(void**) {
     }
 }
 
+// ---- Clusters of the map ----------------------------------------------------------------------------------
+
+// A dim sky with two lamps, one of them across the seam.
+RgbImage lamps() {
+    RgbImage map;
+    map.width = 64;
+    map.height = 32;
+    map.rgb.assign(size_t(map.width) * map.height * 3, 0.1f);
+    for (const size_t texel : {size_t(10 * 64), size_t(10 * 64 + 63), size_t(20 * 64 + 30)})
+        for (size_t c = 0; c < 3; ++c) map.rgb[3 * texel + c] = 50.0f + 10.0f * float(c);
+    return map;
+}
+
+Vec3 direction_of(const MapPoint& point) { return {point.direction[0], point.direction[1], point.direction[2]}; }
+
+void clusters_hold_all_points_and_equal_light(void**) {
+    const RgbImage map = lamps();
+    const MapSampler sampler(map);
+    constexpr uint32_t count = 4096, parts = 16, each = count / parts;
+    const std::vector<MapPoint> drawn = draw_map_points(map, sampler, Lookup::linear, 7, count);
+    std::vector<MapPoint> points = drawn;
+    const std::vector<MapCluster> clusters = cluster_points(&points, parts);
+    assert_int_equal(clusters.size(), parts);
+
+    // The same points in another order: told apart by their directions, summed with weights that no other set shares.
+    const auto print = [](const std::vector<MapPoint>& all) {
+        double sum = 0;
+        for (const MapPoint& p : all) sum += std::sin(1e3 * p.direction[0]) + std::cos(2e3 * p.direction[1]) * p.direction[2];
+        return sum;
+    };
+    check_close("points kept", print(points), print(drawn), 1e-9);  // the order of 4096 additions of doubles
+
+    for (uint32_t k = 0; k < parts; ++k) {
+        const Vec3 middle(clusters[k].direction[0], clusters[k].direction[1], clusters[k].direction[2]);
+        double solid_angle = 0;
+        for (uint32_t i = 0; i < each; ++i) {
+            const MapPoint& point = points[k * each + i];
+            solid_angle += point.inverse_pdf;
+            const double cosine = glm::dot(middle, direction_of(point));
+            if (clusters[k].sine < 1) assert_true(std::sqrt(std::max(0.0, 1 - cosine * cosine)) <= clusters[k].sine + 1e-3 && cosine > 0);
+        }
+        check_close("density", clusters[k].density * solid_angle / each, 1, 1e-5);
+    }
+}
+
+// Of every two adjoining points of a cluster, one lies in each half of it: below and above the median along its widest extent.
+void pairs_of_a_cluster_lie_in_both_halves(void**) {
+    const RgbImage map = lamps();
+    const MapSampler sampler(map);
+    std::vector<MapPoint> points = draw_map_points(map, sampler, Lookup::linear, 8, 4096);
+    cluster_points(&points, 16);
+    for (size_t cluster = 0; cluster < 16; ++cluster) {
+        const MapPoint* own = &points[cluster * 256];
+        double extents[3];
+        std::vector<double> along[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            for (size_t i = 0; i < 256; ++i) along[axis].push_back(double(own[i].direction[axis]));
+            const auto [low, high] = std::minmax_element(along[axis].begin(), along[axis].end());
+            extents[axis] = *high - *low;
+        }
+        const auto& values = along[std::max_element(extents, extents + 3) - extents];
+        std::vector<double> sorted = values;
+        std::sort(sorted.begin(), sorted.end());
+        for (size_t i = 0; i < 256; i += 2) {
+            // The first of a pair comes from the lower half; equal values may stand on either side of the median.
+            assert_true(values[i] <= sorted[128]);
+            assert_true(values[i + 1] >= sorted[127]);
+        }
+    }
+}
+
+// Summed over the square of incident directions with their solid angles, a view's importance is its albedo.
+void importance_adds_up_to_the_albedo(void**) {
+    constexpr int side = LobeImportance::side;
+    const LobeImportance importance = lobe_importance(Lambert{Vec3(0.8, 0.8, 0.8)});
+    assert_int_equal(importance.values.size(), size_t(LobeTable::views) * side * side);
+    double sum = 0;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            // d(wi) / d(square): 2 s^3 with s = |x| + |y| + z of the unit direction; the base of the pyramid has area 2.
+            const Vec3 wi = HemiOctahedral::to_direction(Vec2(x + 0.5, y + 0.5) / double(side));
+            const double s = std::abs(wi.x) + std::abs(wi.y) + wi.z;
+            sum += double(importance.values[size_t(y * side + x)]) * 2 * s * s * s / (side * side);
+        }
+    // Midpoints of 16 cells a side: a relative error of the order of 1 / 16^2.
+    check_close("albedo", sum, 0.8, 0.8 * 0.01);
+}
+
 }  // namespace
 }  // namespace lightband
 
@@ -358,6 +448,9 @@ int main() {
         cmocka_unit_test(aligned_blocks_stratify_every_elementary_interval),
         cmocka_unit_test(pilots_carry_the_albedo),
         cmocka_unit_test(pilots_stand_for_their_solid_angles),
+        cmocka_unit_test(clusters_hold_all_points_and_equal_light),
+        cmocka_unit_test(pairs_of_a_cluster_lie_in_both_halves),
+        cmocka_unit_test(importance_adds_up_to_the_albedo),
     };
     return cmocka_run_group_tests_name("sampling", tests, nullptr, nullptr);
 }
