@@ -19,7 +19,7 @@ constexpr double interpolation_share = 0.3;
 // Rounds aim below what was asked, by what the estimate may miss; a round that comes this near is the last.
 constexpr double aim = 0.88, good_enough = 0.96;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
-constexpr double caution = 0.3;
+constexpr double caution = 1;
 // Of the variance predicted, rounds were seen to leave a fifth to one and a half. The first draws what a smaller part would ask:
 // samples drawn early are kept, samples drawn beyond need are lost.
 constexpr double expected_correction = 0.15;
