@@ -9,7 +9,6 @@ a bound is not kept.
 from __future__ import annotations
 
 import argparse
-import csv
 import datetime
 import subprocess
 import sys
@@ -19,6 +18,7 @@ from tqdm import tqdm
 
 import lightband
 from scenes import machine
+from tables import write_table
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "tests" / "python"))
 from extreme_rows import ROWS  # noqa: E402
@@ -51,11 +51,7 @@ def main() -> None:
     context = lightband.Context(device=arguments.device)
     rows = oracle_rows(arguments.oracle) + closed_form_rows(context)
     path = arguments.out / "extremes.csv"
-    with open(path, "w", newline="") as out:
-        out.write(f"# {machine(context)}; {datetime.date.today()}\n")
-        writer = csv.DictWriter(out, COLUMNS)
-        writer.writeheader()
-        writer.writerows({k: f"{v:.4g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
+    write_table(path, f"{machine(context)}; {datetime.date.today()}", COLUMNS, rows)
     print(path.read_text())
     broken = [row for row in rows if not row["measured"] <= row["bound"]]
     if broken:

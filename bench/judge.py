@@ -11,9 +11,7 @@ has its own rays, samplers and reflectances. Writes judge.csv and prints a table
 from __future__ import annotations
 
 import argparse
-import csv
 import datetime
-import os
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +22,7 @@ from measure import DARK_PART, luminance
 from peer import Peer, PeerScene
 from peer_brdfs import Ggx, Lambert
 from scenes import CAMERA, Stage, machine
+from tables import write_table
 
 GOLD = Ggx(alpha=0.3, f0=(1.0, 0.78, 0.34))
 GREY = Lambert(albedo=(0.5, 0.5, 0.5))
@@ -103,17 +102,6 @@ def judge(stage: Stage, peer: Peer, mesh: str, material: Lambert | Ggx | str, en
         f"{compared.sum() / frame.stats.covered_pixels:.4f}", "agree" if abs(ratio - 1) <= TOLERANCE else "DIFFER")))
 
 
-def write_table(path: Path, head: str, rows: list[dict]) -> None:
-    """Whole or not at all: a reader never sees half a table."""
-    part = path.with_suffix(".part")
-    with open(part, "w", newline="") as out:
-        out.write(head + "\n")
-        writer = csv.DictWriter(out, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
-    os.replace(part, path)
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True)
@@ -127,8 +115,8 @@ def main() -> None:
     stage, peer = Stage(arguments.data, arguments.materials), Peer(arguments.data, arguments.materials)
     rows = [judge(stage, peer, *scene, arguments.size, arguments.spp) for scene in tqdm(SCENES, desc="scenes")]
     path = arguments.out / "judge.csv"
-    write_table(path, f"# {machine(stage.context)}; {peer.description}; {arguments.size} x {arguments.size}; "
-                      f"{datetime.date.today()}", rows)
+    write_table(path, f"{machine(stage.context)}; {peer.description}; {arguments.size} x {arguments.size}; "
+                      f"{datetime.date.today()}", COLUMNS, rows)
     print(path.read_text())
     raise SystemExit(any(row["verdict"] != "agree" for row in rows))
 

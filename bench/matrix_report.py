@@ -1,7 +1,6 @@
 """The matrix as tables, pictures and a page: asked.csv, budget.csv, rivals.csv, fixed.csv, their plots, and trade.md."""
 from __future__ import annotations
 
-import csv
 import os
 import textwrap
 from pathlib import Path
@@ -10,22 +9,11 @@ import numpy as np
 
 import matrix_figures as figures
 from matrix_figures import column, geometric_mean
+from tables import write_table
 
 BUDGET_TOLERANCE = 0.2  # relative: a kept time budget
 WIDTH = 130  # characters of a line of prose
 LOSS = 1 / 1.2  # best fixed setting's time over ours under which a scene counts as lost: more than 20 % slower
-
-
-def write_table(path: Path, head: str, columns: tuple[str, ...], rows: list[dict]) -> None:
-    """Whole or not at all: a reader never sees half a table."""
-    part = path.with_suffix(".part")
-    with open(part, "w", newline="") as out:
-        out.write(f"# {head}\n")
-        writer = csv.DictWriter(out, columns)
-        writer.writeheader()
-        writer.writerows({key: f"{value:.4g}" if isinstance(value, float) else value for key, value in row.items()}
-                         for row in rows)
-    os.replace(part, path)
 
 
 def several(values: list[str]) -> str:

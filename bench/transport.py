@@ -8,10 +8,8 @@ pixel and the same scale of bandwidth as predicted (1). Writes transport.csv.
 from __future__ import annotations
 
 import argparse
-import csv
 import datetime
 import itertools
-import os
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +17,7 @@ from tqdm import tqdm
 
 from measure import luminance, relative_error
 from scenes import Stage, machine
+from tables import write_table
 
 MESHES = ("bunny", "buddha", "dragon", "car body")
 MATERIALS = ("gold-paint", "color-changing-paint3")
@@ -55,14 +54,9 @@ def main() -> None:
     stage = Stage(arguments.data, arguments.materials)
     rows = [measure(stage, *scene, arguments.size, arguments.samples)
             for scene in tqdm(list(itertools.product(MESHES, MATERIALS, MAPS)), desc="scenes")]
-    part = arguments.out / "transport.part"
-    with open(part, "w", newline="") as out:
-        out.write(f"# {machine(stage.context)}; {arguments.size} x {arguments.size}; {datetime.date.today()}\n")
-        writer = csv.DictWriter(out, COLUMNS)
-        writer.writeheader()
-        writer.writerows({k: f"{v:.4f}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
-    os.replace(part, arguments.out / "transport.csv")
-    print((arguments.out / "transport.csv").read_text())
+    path = arguments.out / "transport.csv"
+    write_table(path, f"{machine(stage.context)}; {arguments.size} x {arguments.size}; {datetime.date.today()}", COLUMNS, rows, ".4f")
+    print(path.read_text())
 
 
 if __name__ == "__main__":

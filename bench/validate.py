@@ -10,7 +10,6 @@ Writes validation.csv (rank correlations, median ratios) and a picture per mater
 from __future__ import annotations
 
 import argparse
-import csv
 import datetime
 from pathlib import Path
 
@@ -20,6 +19,7 @@ from tqdm import tqdm
 from lightband import pictures
 from measure import luminance, rank_correlation, windowed_bandwidth
 from scenes import Stage, machine
+from tables import write_table
 
 MATERIALS = ("color-changing-paint3", "gold-paint", "nickel")
 COLUMNS = ("material", "mesh", "map", "bandwidth rank", "bandwidth ratio", "box bandwidth rank", "variance rank", "variance ratio",
@@ -99,11 +99,7 @@ def main() -> None:
     rows = [validate(stage, material, arguments.mesh, arguments.map, arguments.size, arguments.samples, arguments.out)
             for material in tqdm(MATERIALS, desc="materials")]
     path = arguments.out / "validation.csv"
-    with open(path, "w", newline="") as out:
-        out.write(f"# {machine(stage.context)}; {arguments.size} x {arguments.size}; {datetime.date.today()}\n")
-        writer = csv.DictWriter(out, COLUMNS)
-        writer.writeheader()
-        writer.writerows({k: f"{v:.3f}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
+    write_table(path, f"{machine(stage.context)}; {arguments.size} x {arguments.size}; {datetime.date.today()}", COLUMNS, rows, ".3f")
     print(path.read_text())
 
 
