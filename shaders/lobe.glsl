@@ -13,6 +13,9 @@ float lobe_importance(int view, vec3 wi) {
     return texelFetch(lobe_importances, (view * IMPORTANCE_SIDE + cell.y) * IMPORTANCE_SIDE + cell.x).r;
 }
 
+// The integral of that over a view's directions.
+float importance_albedo(int view) { return texelFetch(lobe_importances, LOBE_VIEWS * IMPORTANCE_SIDE * IMPORTANCE_SIDE + view).r; }
+
 #if defined(LOBE_TABLE)
 
 layout(binding = 2) uniform samplerBuffer brdf_cells;     // RGB / table_scale, and 1 where measured

@@ -3,9 +3,9 @@
 #include "common.glsl"
 #include "decision.glsl"
 #include "lobe.glsl"
+#include "light.glsl"
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform sampler2D map;
 layout(binding = 1) uniform usamplerBuffer entries;
 layout(binding = 5) uniform sampler2D positions;
 layout(binding = 6) uniform sampler2D normals;
@@ -16,7 +16,7 @@ layout(binding = 8) uniform usamplerBuffer sequence;  // a (0,2)-sequence, 32 bi
 #if defined(SAMPLER_COMBINED)
 // src/sampling/map_sampler.h, MapPoint and MapCluster: two vec4 each.
 layout(binding = 10) uniform samplerBuffer map_points;
-layout(binding = 11) uniform samplerBuffer map_clusters;
+layout(std140, binding = 0) uniform Clusters { vec4 map_clusters[2 * MAP_CLUSTERS]; };
 #endif
 layout(binding = 0, rgba32f) uniform image2D radiances;      // mean of RGB; mean of squared luminance
 layout(binding = 1, r32ui) uniform uimage2D sample_counts;   // samples that went into them
@@ -25,17 +25,6 @@ uniform uint first, count;                                   // part of the list
 uniform uint samples[BINS];                                  // for each bin
 uniform uint seed;
 uniform uint spared;  // a pixel that lacks no more than 2^-spared of what it has goes without: so few would not be stratified
-
-// Radiance, and the density (per steradian) with which the map's sampler draws the direction.
-vec4 light_from(vec3 direction) {
-    vec2 uv = latitude_longitude(direction);
-#if defined(ENVIRONMENT_NEAREST)
-    ivec2 size = textureSize(map, 0);
-    return texelFetch(map, min(ivec2(uv * size), size - 1), 0);
-#else
-    return textureLod(map, uv, 0.0);
-#endif
-}
 
 struct Pixel {
     mat3 frame;  // columns: the local frame in world space
@@ -57,49 +46,32 @@ vec4 with_square(vec3 value) {
 
 #if defined(SAMPLER_COMBINED)
 
-// The map's clusters by what they send to this pixel's eye, as far as the lobe's sampler leaves it to the map's: probabilities.
-float cluster_probability[MAP_CLUSTERS];
-
-// Part of the samples spread evenly over the clusters above the horizon, so that none that may send light has probability 0.
-const float even_part = 0.1;
+// The map's clusters by what they send to this pixel's eye, as far as the lobe's sampler leaves it to the map's: running sums of
+// their chances.
+float chances[MAP_CLUSTERS];
 
 void find_clusters(Pixel pixel) {
-    float sum = 0.0, seen = 0.0, reflected = 0.0;
-    for (uint k = 0u; k < MAP_CLUSTERS; ++k) {
-        vec4 cluster = texelFetch(map_clusters, 2 * int(k));
-        float density = texelFetch(map_clusters, 2 * int(k) + 1).r;
+    // The lobe's own density is f over its albedo. An even part keeps a chance for every cluster above the horizon: three hundredths of
+    // f's mean over the hemisphere; a black lobe's clusters are all alike.
+    float albedo = importance_albedo(pixel.view), even = albedo > 0.0 ? 0.03 * albedo / (2.0 * pi) : 1.0, sum = 0.0;
+    for (int k = 0; k < MAP_CLUSTERS; ++k) {
+        vec4 cluster = map_clusters[2 * k];
         vec3 wi = cluster.xyz * pixel.frame;
-        float value = -1.0;  // wholly below the horizon
         if (wi.z > -cluster.w || cluster.w >= 1.0) {
             // Where the horizon cuts it, the middle of what is above it.
             if (wi.z < cluster.w) wi = normalize(vec3(wi.xy, 0.5 * (wi.z + cluster.w)));
-            float f = lobe_importance(pixel.view, wi);
-            value = f;
-            seen += 1.0;
-            reflected += f / density;
+            float f = lobe_importance(pixel.view, wi), odds = albedo * MAP_WORTH * map_clusters[2 * k + 1].x;
+            sum += (f > 0.0 ? odds / (1.0 + odds / f) : 0.0) + even;
         }
-        cluster_probability[k] = value;
-    }
-    // The lobe's own density is f over its albedo; f / density summed is 64 times that albedo.
-    float albedo = reflected / float(MAP_CLUSTERS);
-    for (uint k = 0u; k < MAP_CLUSTERS; ++k) {
-        float f = cluster_probability[k];
-        if (f <= 0.0) continue;
-        float density = texelFetch(map_clusters, 2 * int(k) + 1).r;
-        float value = f * MAP_WORTH * density / (f / albedo + MAP_WORTH * density);
-        cluster_probability[k] = value;
-        sum += value;
-    }
-    for (uint k = 0u; k < MAP_CLUSTERS; ++k) {
-        float value = cluster_probability[k];
-        cluster_probability[k] = value < 0.0 ? 0.0 : mix(sum > 0.0 ? value / sum : 1.0 / seen, 1.0 / seen, even_part);
+        chances[k] = sum;
     }
 }
 
 #endif
 
 // Sum over n > 0 samples of their values (RGB) and of their squared luminances. which: 0 or 1; the two replicates share nothing.
-vec4 replicate(Pixel pixel, uint n, uint which, inout uint state) {
+// total: samples of this replicate, those of former rounds included.
+vec4 replicate(Pixel pixel, uint n, uint total, uint which, inout uint state) {
     vec4 sum = vec4(0);
 #if !defined(SEQUENCE_RANDOM)
     // A digital shift of each pixel's own keeps the sequence's stratification and makes the mean unbiased.
@@ -107,14 +79,19 @@ vec4 replicate(Pixel pixel, uint n, uint which, inout uint state) {
 #endif
 #if defined(SAMPLER_COMBINED)
     // Half the samples from the map: of each cluster's points, drawn beforehand, the replicate's half in an order of its own for
-    // each pixel. Steps of equal probability choose the clusters.
+    // each pixel. Steps of equal chance choose the clusters.
     const uint cluster_points = MAP_POINTS / MAP_CLUSTERS;
+    const float all_chances = chances[MAP_CLUSTERS - 1];
     uint from_map = (n + (next_random(state) >> 31)) / 2u, from_lobe = n - from_map;  // half of an odd number by chance
     uint turn = next_random(state), cluster = 0u, drawn_here = 0u;
     const float share = 2.0;  // of all samples for each of one sampler
-    float offset = unit(next_random(state)), below = cluster_probability[0];
+    float offset = unit(next_random(state)), below = 0.0, above = chances[0];
 #else
     const uint from_lobe = n, from_map = 0u;
+    const float share = 1.0;
+#endif
+#if defined(FILTERED)
+    float footprints = max(float(total) / share, 1.0);  // parts of the lobe that its samples stand for
 #endif
     for (uint i = 0u; i < max(from_lobe, from_map); ++i) {
 #if defined(SEQUENCE_RANDOM)
@@ -126,34 +103,43 @@ vec4 replicate(Pixel pixel, uint n, uint which, inout uint state) {
         vec3 wi, weight;
         vec2 density;
         if (i < from_lobe && sample_lobe(pixel.wo, pixel.view, u, wi, weight, density)) {
+#if defined(FILTERED)
+            sum += with_square(share * weight * light_for_lobe(pixel.frame * wi, density, footprints));
+#else
             vec4 light = light_from(pixel.frame * wi);
 #if defined(SAMPLER_COMBINED)
             // Balance heuristic (Veach 1997).
             weight *= share * density.x / (density.x + MAP_WORTH * light.a * density.y);
 #endif
             sum += with_square(weight * light.rgb);
+#endif
         }
 #if defined(SAMPLER_COMBINED)
         if (i < from_map) {
-            float place = (float(i) + offset) / float(from_map);
-            while (below <= place && cluster + 1u < MAP_CLUSTERS) {
-                below += cluster_probability[++cluster];
+            float place = (float(i) + offset) / float(from_map) * all_chances;
+            while (above <= place && cluster + 1u < MAP_CLUSTERS) {
+                below = above;
+                above = chances[++cluster];
                 drawn_here = 0u;
                 turn = next_random(state);
             }
+            float chance = (above - below) / all_chances;
             // One sample in each of as many compact parts as samples are expected here; anywhere in that part.
-            uint parts = 1u << uint(max(ceil(log2(cluster_probability[cluster] * float(from_map))), 0.0));
+            uint parts = 1u << uint(max(ceil(log2(chance * float(from_map))), 0.0));
             uint within = (drawn_here++ ^ turn) & (parts - 1u) | next_random(state) & ~(parts - 1u);
             within = within & (cluster_points / 2u - 1u) | which * (cluster_points / 2u);
             int index = 2 * int(cluster * cluster_points + within);
             vec4 point = texelFetch(map_points, index);
             wi = point.xyz * pixel.frame;
-            if (wi.z > 0.0) {
+            if (wi.z > 0.0 && chance > 0.0) {
                 vec4 light = texelFetch(map_points, index + 1);
                 vec3 value = evaluate_lobe(pixel.wo, pixel.view, wi, density) * light.rgb;
-                float odds = MAP_WORTH * light.a * density.y;
-                float chance = cluster_probability[cluster] * float(MAP_CLUSTERS);
-                sum += with_square(value * (share * point.w / chance * odds / (density.x + odds)));
+#if defined(FILTERED)
+                float part = split_parts(density, light_layer(density), light.a).y;
+#else
+                float odds = MAP_WORTH * light.a * density.y, part = odds / (density.x + odds);
+#endif
+                sum += with_square(value * (share * point.w / (chance * float(MAP_CLUSTERS)) * part));
             }
         }
 #endif
@@ -184,7 +170,7 @@ void main() {
     for (uint which = 0u; which < 2u; ++which) {
         uint n = each[which] - had_each[which];
         if (n == 0u) continue;
-        vec4 drawn = replicate(pixel, n, which, state);
+        vec4 drawn = replicate(pixel, n, each[which], which, state);
         luminances[which] += luminance(drawn.rgb);
         sum += drawn;
     }

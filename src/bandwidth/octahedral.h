@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/math.h"
 
@@ -47,6 +48,12 @@ inline double octahedral_stretch(double u, double v, double w, double square_sid
     const double aa = (1 - a) * (1 - a) + 2 * a * a, bb = (1 - b) * (1 - b) + 2 * b * b, ab = 3 * a * b - a - b;
     const double half = 0.5 * (aa - bb);
     return square_sides / s * std::sqrt(0.5 * (aa + bb) + std::sqrt(half * half + ab * ab));
+}
+// Lookups along each side of a texel of an octahedral square so that they lie no farther apart than the texels of a
+// latitude-longitude map, also where the square's are widest (their mean width is sqrt(4 pi) / side radians; the largest is 1.7
+// times that).
+inline int32_t octahedral_supersampling(uint32_t map_height, uint32_t side) {
+    return std::max(1, int32_t(std::ceil(1.7 * std::sqrt(4 * pi) / side * map_height / pi)));
 }
 inline double stretch(const Octahedral&, const Vec3& d) { return octahedral_stretch(d.x, d.z, d.y, 0.5); }
 inline double stretch(const HemiOctahedral&, const Vec3& d) { return octahedral_stretch(d.x, d.y, d.z, std::sqrt(0.5)); }

@@ -38,6 +38,7 @@ public:
     Allocation allocation() const;
     Sequence sequence() const;
     Sampler sampler() const;
+    bool filtered() const;  // lookups of the map, over footprints
     Lookup brdf_lookup() const;
     Lookup environment_lookup() const;
     double target_error() const;  // 0: none

@@ -64,6 +64,7 @@
     X(PFNGLTEXTUREBUFFERPROC, TextureBuffer)               \
     X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)       \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)         \
+    X(PFNGLTEXTURESTORAGE3DPROC, TextureStorage3D)         \
     X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)       \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                     \
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding) \

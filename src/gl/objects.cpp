@@ -49,13 +49,27 @@ Texture Texture::image(const Functions& gl, GLenum format, uint32_t width, uint3
     texture.gl_ = &gl;
     gl.CreateTextures(GL_TEXTURE_2D, 1, &texture.name_);
     gl.TextureStorage2D(texture.name_, GLsizei(levels), format, GLsizei(width), GLsizei(height));
-    texture.parameter(GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
-    texture.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    texture.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    texture.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    for (uint32_t level = 0; level < levels; ++level)
-        texture.bytes_ += size_t(std::max(width >> level, 1u)) * std::max(height >> level, 1u) * texel_bytes(format);
+    texture.describe(width, height, levels, texel_bytes(format));
     return texture;
+}
+
+Texture Texture::image_array(const Functions& gl, GLenum format, uint32_t width, uint32_t height, uint32_t layers, uint32_t levels) {
+    Texture texture;
+    texture.gl_ = &gl;
+    gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &texture.name_);
+    gl.TextureStorage3D(texture.name_, GLsizei(levels), format, GLsizei(width), GLsizei(height), GLsizei(layers));
+    texture.describe(width, height, levels, layers * texel_bytes(format));
+    return texture;
+}
+
+// Nearest lookup, held at the edges, until a pass asks for another.
+void Texture::describe(uint32_t width, uint32_t height, uint32_t levels, size_t bytes_per_texel) {
+    parameter(GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
+    parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    for (uint32_t level = 0; level < levels; ++level)
+        bytes_ += size_t(std::max(width >> level, 1u)) * std::max(height >> level, 1u) * bytes_per_texel;
 }
 
 Texture Texture::of_buffer(const Functions& gl, GLenum format, const Buffer& buffer) {

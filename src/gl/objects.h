@@ -60,6 +60,7 @@ public:
     ~Texture();
 
     static Texture image(const Functions& gl, GLenum format, uint32_t width, uint32_t height, uint32_t levels = 1);
+    static Texture image_array(const Functions& gl, GLenum format, uint32_t width, uint32_t height, uint32_t layers, uint32_t levels);
     // A texture over a buffer: the fastest way to read a table in a shader.
     static Texture of_buffer(const Functions& gl, GLenum format, const Buffer& buffer);
 
@@ -69,6 +70,7 @@ public:
     size_t bytes() const { return bytes_; }
 
 private:
+    void describe(uint32_t width, uint32_t height, uint32_t levels, size_t bytes_per_texel);
     size_t bytes_ = 0;
 };
 

@@ -22,8 +22,17 @@ inline void bind_image(const gl::Functions& gl, GLuint unit, const gl::Texture& 
     gl.BindImageTexture(unit, texture.name(), GLint(level), GL_FALSE, 0, GL_READ_WRITE, format);
 }
 
+// Every layer of an array of images.
+inline void bind_images(const gl::Functions& gl, GLuint unit, const gl::Texture& texture, GLenum format, uint32_t level = 0) {
+    gl.BindImageTexture(unit, texture.name(), GLint(level), GL_TRUE, 0, GL_READ_WRITE, format);
+}
+
 inline void bind_storage(const gl::Functions& gl, GLuint binding, const gl::Buffer& buffer) {
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+}
+
+inline void bind_uniforms(const gl::Functions& gl, GLuint binding, const gl::Buffer& buffer) {
+    gl.BindBufferBase(GL_UNIFORM_BUFFER, binding, buffer.name());
 }
 
 }  // namespace lightband::passes

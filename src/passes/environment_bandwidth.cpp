@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/math.h"
+#include "bandwidth/octahedral.h"
 #include "passes/dispatch.h"
 
 namespace lightband::passes {
@@ -16,12 +16,6 @@ uint32_t side_for(uint32_t map_height) {
     uint32_t side = smallest_side;
     while (side < map_height && side < largest_side) side *= 2;
     return side;
-}
-
-// Lookups along a texel's side so that they lie no farther apart than the map's texels, also where the square's texels are
-// widest (their mean width is sqrt(4 pi) / side radians; the largest is 1.7 times that).
-int32_t supersampling_for(uint32_t map_height, uint32_t side) {
-    return std::max(1, int32_t(std::ceil(1.7 * std::sqrt(4 * pi) / side * map_height / pi)));
 }
 
 void dispatch_square(const gl::Functions& gl, uint32_t side) { dispatch_pixels(gl, side, side); }
@@ -43,7 +37,7 @@ EnvironmentBandwidth environment_bandwidth(gl::Device& device, const gl::Texture
 
     const gl::Program& resample = device.compute("environment_resample");
     resample.set("side", int32_t(side));
-    resample.set("supersampling", supersampling_for(map_height, side));
+    resample.set("supersampling", octahedral_supersampling(map_height, side));
     resample.use();
     bind_texture(gl, 0, map);
     bind_image(gl, 0, result.moments, GL_RGBA32F);

@@ -12,12 +12,17 @@ namespace {
 // below the watchdogs of graphics drivers.
 constexpr uint64_t dispatch_samples = 1u << 23;
 
+LightLayers::Kind layers_for(const Settings& settings) {
+    return settings.sampler() == Sampler::combined ? LightLayers::Kind::split : LightLayers::Kind::whole;
+}
+
 std::string definitions(const Material& material, const Settings& settings) {
     std::string result = material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples);
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
     if (settings.sampler() == Sampler::combined)
-        result += text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::clusters, "u\nMAP_WORTH ",
+        result += text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::cluster_count, "\nMAP_WORTH ",
                        map_sample_worth);
+    if (settings.filtered()) result += "\nFILTERED\n" + LightLayers::definitions(layers_for(settings));
     if (settings.environment_lookup() == Lookup::nearest) result += "\nENVIRONMENT_NEAREST";
     return result;
 }
@@ -40,13 +45,16 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
            const Shading& target, const Drawn& drawn) {
     const gl::Functions& gl = device.gl();
     uint64_t done = 0;
+    const LightLayers* layers =
+        settings.filtered() ? &scene.light->layers(settings.environment_lookup(), layers_for(settings)) : nullptr;
+    const MapPoints* points =
+        settings.sampler() == Sampler::combined ? &scene.light->points(settings.environment_lookup(), seed) : nullptr;
     for (const ShadingList::Part& part : list.parts) {
         const Material& material = *slots.materials[part.slot];
         const gl::Program& program = device.compute("shade", definitions(material, settings));
         program.set("seed", seed);
         program.set("spared", first_round ? 31u : 4u);
         program.set_array("samples", list.samples.data(), int32_t(budget_bins));
-        program.use();
         material.bind(program);
         bind_texture(gl, 0, scene.light->texture());
         bind_texture(gl, 1, list.entries_texture);
@@ -54,12 +62,16 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         bind_texture(gl, 6, gbuffer.normal);
         bind_texture(gl, 7, target.decision);
         bind_texture(gl, 8, sequence.texture);
-        if (settings.sampler() == Sampler::combined) {
-            const MapPoints& points = scene.light->points(settings.environment_lookup(), seed);
-            bind_texture(gl, 10, points.texture);
-            bind_texture(gl, 11, points.cluster_texture);
+        if (points != nullptr) {
+            bind_texture(gl, 10, points->texture);
+            bind_uniforms(gl, 0, points->clusters);
             material.bind_importance();
         }
+        if (layers != nullptr) {
+            program.set("light_unit", float(layers->unit));
+            bind_texture(gl, 13, layers->texture);
+        }
+        program.use();
         bind_image(gl, 0, target.radiance, GL_RGBA32F);
         bind_image(gl, 1, target.sample_count, GL_R32UI);
         bind_image(gl, 2, target.spread, GL_RG32F);

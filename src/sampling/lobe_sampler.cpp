@@ -178,12 +178,15 @@ LobeImportance lobe_importance(const Brdf& brdf) {
     for (int view = 0; view < LobeTable::views; ++view) {
         const double theta = (view + 0.5) / LobeTable::views * pi / 2;
         const Vec3 wo(std::sin(theta), 0, std::cos(theta));
+        double albedo = 0;
         for (int y = 0; y < fine; ++y)
             for (int x = 0; x < fine; ++x) {
                 const Vec3 wi = HemiOctahedral::to_direction(Vec2(x + 0.5, y + 0.5) / double(fine));
-                float& cell = result.values[size_t((view * side + y / supersampling) * side + x / supersampling)];
-                cell += float(luminance(evaluate(smooth, wi, wo)) * wi.z / (supersampling * supersampling));
+                const double value = luminance(evaluate(smooth, wi, wo)) * wi.z, reach = std::abs(wi.x) + std::abs(wi.y) + wi.z;
+                result.values[size_t((view * side + y / supersampling) * side + x / supersampling)] += float(value / (supersampling * supersampling));
+                albedo += value * 2 * reach * reach * reach / (fine * fine);  // the square's point covers 2 reach^3 steradians
             }
+        result.albedos.push_back(float(albedo));
     }
     return result;
 }

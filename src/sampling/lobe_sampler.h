@@ -38,7 +38,8 @@ LobeTable lobe_table(const Brdf& brdf);
 // the square of incident directions (docs/conventions.md), for each of LobeTable::views.
 struct LobeImportance {
     static constexpr int side = 16;
-    std::vector<float> values;  // views * side * side
+    std::vector<float> values;   // views * side * side
+    std::vector<float> albedos;  // of each view: the integral of its values
 };
 
 LobeImportance lobe_importance(const Brdf& brdf);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/environment_bandwidth.h"
+#include "passes/split_light.h"
 
 namespace lightband {
 
@@ -33,21 +34,34 @@ const EnvironmentBandwidth& Light::bandwidth(BandRule rule) const {
 }
 
 const MapPoints& Light::points(Lookup lookup, uint32_t seed) const {
-    if (!points_.buffer || points_key_ != std::pair(lookup, seed)) {
+    if (!points_.points || points_key_ != std::pair(lookup, seed)) {
         std::vector<MapPoint> points = draw_map_points(map_, sampler_, lookup, seed, MapPoints::count);
-        const std::vector<MapCluster> clusters = cluster_points(&points, MapPoints::clusters);
-        points_.cluster_buffer = gl::Buffer(device_->gl(), clusters.size() * sizeof(MapCluster), clusters.data());
-        points_.cluster_texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, points_.cluster_buffer);
-        points_.buffer = gl::Buffer(device_->gl(), points.size() * sizeof(MapPoint), points.data());
-        points_.texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, points_.buffer);
+        const std::vector<MapCluster> clusters = cluster_points(&points, MapPoints::cluster_count);
+        points_.clusters = gl::Buffer(device_->gl(), clusters.size() * sizeof(MapCluster), clusters.data());
+        points_.points = gl::Buffer(device_->gl(), points.size() * sizeof(MapPoint), points.data());
+        points_.texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, points_.points);
         points_key_ = {lookup, seed};
     }
     return points_;
 }
 
+std::string LightLayers::definitions(Kind kind) {
+    if (kind == Kind::whole) return "LIGHT_LAYERS 1\nLIGHT_FORMAT rgba32f";
+    return text("LIGHT_LAYERS ", split_count, "\nFIRST_CEILING ", first_ceiling, "\nLIGHT_FORMAT rgba16f");
+}
+
+const LightLayers& Light::layers(Lookup lookup, LightLayers::Kind kind) const {
+    const auto key = std::pair(lookup, kind);
+    auto found = layers_.find(key);
+    if (found == layers_.end())
+        found = layers_.emplace(key, passes::split_light(*device_, texture_, map_.height, sampler_.total(), lookup, kind)).first;
+    return found->second;
+}
+
 size_t Light::device_bytes() const {
-    size_t bytes = texture_.bytes() + points_.buffer.bytes() + points_.cluster_buffer.bytes();
+    size_t bytes = texture_.bytes() + points_.points.bytes() + points_.clusters.bytes();
     for (const auto& [rule, bandwidth] : bandwidths_) bytes += bandwidth.moments.bytes() + bandwidth.bandwidth.bytes();
+    for (const auto& [key, layers] : layers_) bytes += layers.texture.bytes();
     return bytes;
 }
 

@@ -19,9 +19,23 @@ struct EnvironmentBandwidth {
 
 // Directions drawn from a map beforehand; a pixel takes an aligned block of them.
 struct MapPoints {
-    static constexpr uint32_t count = 1u << 16, clusters = 64;
-    gl::Buffer buffer, cluster_buffer;
-    gl::Texture texture, cluster_texture;  // two vec4 each: sampling/map_sampler.h, MapPoint and MapCluster
+    static constexpr uint32_t count = 1u << 16, cluster_count = 64;
+    gl::Buffer points, clusters;  // two vec4 each: sampling/map_sampler.h, MapPoint and MapCluster
+    gl::Texture texture;          // over the points
+};
+
+// A map for lookups of footprints, on the octahedral square. split: in layers, each of which keeps of radiance L the part
+// T / (T + L), T = first_ceiling total 4^k, total being the integral of L over the sphere; what a layer lacks is left to the map's
+// sampler. whole: one layer that keeps all. Filled by passes/split_light.
+struct LightLayers {
+    enum class Kind { split, whole };
+    static constexpr uint32_t split_count = 8;
+    static constexpr double first_ceiling = 0.04;  // about half the mean radiance: 1 / (8 pi)
+    uint32_t side = 0;
+    double unit = 0;      // radiance of a value of 1: the map's mean
+    gl::Texture texture;  // array, mip-mapped
+
+    static std::string definitions(Kind kind);
 };
 
 class Light {
@@ -36,6 +50,7 @@ public:
     const EnvironmentBandwidth& bandwidth(BandRule rule) const;
     // Drawn anew when lookup or seed change.
     const MapPoints& points(Lookup lookup, uint32_t seed) const;
+    const LightLayers& layers(Lookup lookup, LightLayers::Kind kind) const;
     size_t device_bytes() const;
 
 private:
@@ -46,6 +61,7 @@ private:
     mutable std::map<BandRule, EnvironmentBandwidth> bandwidths_;
     mutable MapPoints points_;
     mutable std::pair<Lookup, uint32_t> points_key_;
+    mutable std::map<std::pair<Lookup, LightLayers::Kind>, LightLayers> layers_;
 };
 
 }  // namespace lightband

@@ -67,7 +67,9 @@ void Material::bind(const gl::Program& program) const {
 void Material::bind_importance() const {
     if (!importance_) {
         const LobeImportance importance = lobe_importance(brdf_);
-        importance_ = gl::Buffer(device_->gl(), importance.values.size() * sizeof(float), importance.values.data());
+        std::vector<float> all = importance.values;
+        all.insert(all.end(), importance.albedos.begin(), importance.albedos.end());
+        importance_ = gl::Buffer(device_->gl(), all.size() * sizeof(float), all.data());
         importance_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, importance_);
     }
     device_->gl().BindTextureUnit(12, importance_texture_.name());
