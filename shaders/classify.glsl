@@ -3,12 +3,20 @@
 #include "covered.glsl"
 #include "decision.glsl"
 #include "parents.glsl"
+#if !defined(SHADE_ALL)
+#include "relative_variance.glsl"
+#endif
 
 layout(binding = 3) uniform usamplerBuffer brdf_of;
 #if !defined(SHADE_ALL)
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
 layout(binding = 1, r32f) readonly uniform image2D variances;
 layout(binding = 4) uniform sampler2D bandwidth;
+layout(binding = 5) uniform sampler2D prediction;
+layout(binding = 6) uniform sampler2D radiances;  // of former rounds: src/frame/targets.h
+uniform float mean_radiance;  // of the covered pixels, as predicted
+uniform float surprise;       // turns a measured variance into the predicted one that it deserves; 0: none was measured
+uniform float tolerance;      // by how much, relatively, the pilots may contradict interpolation
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
 uniform uint witnesses;  // how many of 2^32 pixels that may be interpolated are shaded all the same
@@ -46,14 +54,19 @@ void around(ivec2 at, int level, out int least, out float variance) {
     least = int(low);
 }
 
-// Whether the pixel may be interpolated: enough parents evenly around it, and none of them (those at the far edges lie outside
-// the blocks around it) needs a finer spacing than theirs.
+// Whether the pixel may be interpolated: enough parents evenly around it, none of which (those at the far edges lie outside the
+// blocks around it) needs a finer spacing than theirs; and what the pilots expect here is what lies between their expectations
+// there. Bandwidth knows nothing of contrast: beside a rim that shows a lamp, the slightest remainder of it is too much.
 bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     Parents parents = parents_of(at, level, pixel_level);
     if (!parents.balanced) return false;
-    for (int corner = 0; corner < 4; ++corner)
-        if (parents.weight[corner] > 0.0 && int(imageLoad(levels, parents.at[corner]).r) <= level) return false;
-    return true;
+    float between = 0.0, here = texelFetch(prediction, at, 0).g;
+    for (int corner = 0; corner < 4; ++corner) {
+        if (parents.weight[corner] <= 0.0) continue;
+        if (int(imageLoad(levels, parents.at[corner]).r) <= level) return false;
+        between += parents.weight[corner] * texelFetch(prediction, parents.at[corner], 0).g;
+    }
+    return abs(between - here) <= tolerance * (here + dark_part * mean_radiance);
 }
 
 // Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
@@ -67,6 +80,17 @@ int share(float variance, int level) {
     float octave = 0.5 * log2(variance) + float(level);
 #endif
     return clamp(int(round(octave)) + BINS / 2, 0, BINS - 1);
+}
+
+#endif
+
+#if !defined(SHADE_ALL)
+
+// The relative variance of a sample as former rounds measured it.
+float measured_variance(ivec2 at) {
+    vec4 radiance = texelFetch(radiances, at, 0);
+    float mean = luminance(radiance.rgb);
+    return relative_variance(vec2(max(radiance.a - mean * mean, 0.0), texelFetch(prediction, at, 0).g), mean_radiance);
 }
 
 #endif
@@ -86,6 +110,7 @@ void main() {
     int least;
     float variance;
     around(at, level, least, variance);
+    if (former && surprise > 0.0) variance = max(variance, surprise * measured_variance(at));
     bool chosen = hash(uint(at.y) << 16 | uint(at.x) ^ hash(seed)) < witnesses;
     bool interpolate = level < coarsest_level && least > level && (chosen || !former);
     if (interpolate) interpolate = has_sound_parents(at, level, float(own));

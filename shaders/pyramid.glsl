@@ -10,8 +10,7 @@ layout(binding = 0) uniform sampler2D prediction;
 layout(binding = 1) uniform sampler2D bandwidth;
 layout(binding = 2) uniform usampler2D materials;
 uniform float mean_radiance;  // of the covered pixels
-layout(binding = 3) uniform usamplerBuffer brdf_of;  // instance number + 1 -> BRDF slot
-layout(binding = 4) uniform samplerBuffer scales;    // BRDF slot -> factor on its bandwidth
+layout(binding = 3) uniform samplerBuffer scales;  // factor on the bandwidth in each tile of TILE_SIDE pixels a side
 uniform int coarsest_level;
 #endif
 layout(binding = 0, r8ui) uniform uimage2D levels;
@@ -36,7 +35,8 @@ void main() {
     if (any(greaterThanEqual(at, finer_size))) return;
     uint material = texelFetch(materials, at, 0).r, level = 255u;  // nothing seen: no constraint
     if (material != 0u) {
-        float scale = texelFetch(scales, int(texelFetch(brdf_of, int(material)).r)).r;
+        int tiles = (finer_size.x + TILE_SIDE - 1) / TILE_SIDE;
+        float scale = texelFetch(scales, at.y / TILE_SIDE * tiles + at.x / TILE_SIDE).r;
         level = shading_level(texelFetch(bandwidth, at, 0).b, scale);
     }
     imageStore(levels, at, uvec4(level));

@@ -46,25 +46,39 @@ vec4 with_square(vec3 value) {
 
 #if defined(SAMPLER_COMBINED)
 
-// The map's clusters by what they send to this pixel's eye, as far as the lobe's sampler leaves it to the map's: running sums of
-// their chances.
-float chances[MAP_CLUSTERS];
+// The map's clusters by what they send to this pixel's eye, as far as the lobe's sampler leaves it to the map's: odds, and what each
+// cluster above the horizon gets besides, so that none that may send light goes without.
+float cluster_odds[MAP_CLUSTERS];
+uvec2 clusters_above;  // a bit for each
+float even_odds, all_odds;
+
+const float even_part = 0.1;  // of all samples
 
 void find_clusters(Pixel pixel) {
-    // The lobe's own density is f over its albedo. An even part keeps a chance for every cluster above the horizon: three hundredths of
-    // f's mean over the hemisphere; a black lobe's clusters are all alike.
-    float albedo = importance_albedo(pixel.view), even = albedo > 0.0 ? 0.03 * albedo / (2.0 * pi) : 1.0, sum = 0.0;
+    // The lobe's own density is f over its albedo.
+    float worth = MAP_WORTH * importance_albedo(pixel.view), sum = 0.0;
+    clusters_above = uvec2(0);
     for (int k = 0; k < MAP_CLUSTERS; ++k) {
         vec4 cluster = map_clusters[2 * k];
         vec3 wi = cluster.xyz * pixel.frame;
+        float odds = 0.0;
         if (wi.z > -cluster.w || cluster.w >= 1.0) {
             // Where the horizon cuts it, the middle of what is above it.
             if (wi.z < cluster.w) wi = normalize(vec3(wi.xy, 0.5 * (wi.z + cluster.w)));
-            float f = lobe_importance(pixel.view, wi), odds = albedo * MAP_WORTH * map_clusters[2 * k + 1].x;
-            sum += (f > 0.0 ? odds / (1.0 + odds / f) : 0.0) + even;
+            float f = lobe_importance(pixel.view, wi), density = worth * map_clusters[2 * k + 1].x;
+            if (f > 0.0) odds = density / (1.0 + density / f);
+            clusters_above[k >> 5] |= 1u << (k & 31);
         }
-        chances[k] = sum;
+        cluster_odds[k] = odds;
+        sum += odds;
     }
+    float count = float(bitCount(clusters_above.x) + bitCount(clusters_above.y));
+    even_odds = sum > 0.0 ? sum * even_part / ((1.0 - even_part) * count) : 1.0;
+    all_odds = sum + even_odds * count;
+}
+
+float odds_of(uint cluster) {
+    return cluster_odds[cluster] + ((clusters_above[cluster >> 5] >> (cluster & 31u) & 1u) != 0u ? even_odds : 0.0);
 }
 
 #endif
@@ -79,13 +93,12 @@ vec4 replicate(Pixel pixel, uint n, uint total, uint which, inout uint state) {
 #endif
 #if defined(SAMPLER_COMBINED)
     // Half the samples from the map: of each cluster's points, drawn beforehand, the replicate's half in an order of its own for
-    // each pixel. Steps of equal chance choose the clusters.
+    // each pixel. Steps of equal odds choose the clusters.
     const uint cluster_points = MAP_POINTS / MAP_CLUSTERS;
-    const float all_chances = chances[MAP_CLUSTERS - 1];
     uint from_map = (n + (next_random(state) >> 31)) / 2u, from_lobe = n - from_map;  // half of an odd number by chance
     uint turn = next_random(state), cluster = 0u, drawn_here = 0u;
     const float share = 2.0;  // of all samples for each of one sampler
-    float offset = unit(next_random(state)), below = 0.0, above = chances[0];
+    float offset = unit(next_random(state)), odds_here = odds_of(0u), odds_below = odds_here;
 #else
     const uint from_lobe = n, from_map = 0u;
     const float share = 1.0;
@@ -116,14 +129,14 @@ vec4 replicate(Pixel pixel, uint n, uint total, uint which, inout uint state) {
         }
 #if defined(SAMPLER_COMBINED)
         if (i < from_map) {
-            float place = (float(i) + offset) / float(from_map) * all_chances;
-            while (above <= place && cluster + 1u < MAP_CLUSTERS) {
-                below = above;
-                above = chances[++cluster];
+            float place = (float(i) + offset) / float(from_map) * all_odds;
+            while (odds_below <= place && cluster + 1u < MAP_CLUSTERS) {
+                odds_here = odds_of(++cluster);
+                odds_below += odds_here;
                 drawn_here = 0u;
                 turn = next_random(state);
             }
-            float chance = (above - below) / all_chances;
+            float chance = odds_here / all_odds;
             // One sample in each of as many compact parts as samples are expected here; anywhere in that part.
             uint parts = 1u << uint(max(ceil(log2(chance * float(from_map))), 0.0));
             uint within = (drawn_here++ ^ turn) & (parts - 1u) | next_random(state) & ~(parts - 1u);

@@ -9,7 +9,7 @@ namespace lightband {
 // Pixels are binned by log2 of the share of samples that they deserve: bin b deserves 2^(b - bins / 2).
 constexpr uint32_t budget_bins = 64;
 // Fewer would leave one of the two samplers of one of the two replicates without a point.
-constexpr uint32_t least_samples = 4;
+constexpr uint32_t least_samples = 16;
 
 using Histogram = std::vector<uint64_t>;  // pixels per bin
 using Budget = std::vector<uint32_t>;     // samples per pixel of each bin

@@ -13,6 +13,10 @@ namespace {
 // later and never coarsened.
 constexpr double unmeasured_interpolation = 0.08, expected_interpolation = 0.005;
 
+// What the pilots may say against interpolation, in parts of the error asked for. The least is what they disagree about among
+// themselves, from view to view; the most is for frames that ask for none.
+constexpr double tolerance_share = 1.2, least_tolerance = 0.03, most_tolerance = 0.5;
+
 // Share of interpolation in the squared error. Pixels shaded grow about as the scale, the square of interpolation's error falls
 // as its fourth power, that of noise as the samples: time is least where the former is some quarter of the whole.
 constexpr double interpolation_share = 0.3;
@@ -20,17 +24,22 @@ constexpr double interpolation_share = 0.3;
 constexpr double aim = 0.88, good_enough = 0.96;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 1;
-// Of the variance predicted, rounds were seen to leave a fifth to one and a half. The first draws what a smaller part would ask:
-// samples drawn early are kept, samples drawn beyond need are lost.
-constexpr double expected_correction = 0.15;
+// Of the variance predicted, rounds were seen to leave a fifth to one and a half, the less the more samples. The first draws what a
+// smaller part would ask, and to no less noise than that: samples drawn early are kept, samples drawn beyond need are lost.
+constexpr double expected_correction = 0.3, first_noise = 0.04;
 constexpr uint32_t most_rounds = 8;
+// A pixel whose samples vary so many times more than predicted, as predictions go in its frame, found a light that the pilots did not:
+// it gets samples by what was measured. Single pixels' variances are known to a factor of two or so.
+constexpr double unsurprising = 4;
 // Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
 constexpr double stratified_gain = 1.25;
 // The scale grows with the squared error of interpolation over what is allowed. For a smooth picture the fourth root would do; near
 // edges, where most of it comes from, it falls more slowly. Steps below the least would not be worth a new classification.
-constexpr double growth_power = 0.35, least_growth = 1.02, most_growth = 4;
-// Witnesses are believed where noise is at most this many times the squared error that is aimed at.
-constexpr double trusted_noise = 3;
+constexpr double growth_power = 0.35, least_growth = 1.1, most_growth = 4;
+// Witnesses are heard where noise is at most so many times what is allowed, and believed without doubt up to the other.
+constexpr double trusted_noise = 3, blameless_noise = 1.25;
+// A tile's few witnesses are joined by so many that saw the frame's mean.
+constexpr double prior_witnesses = 4;
 // A round that did not suffice, though no level was at fault, is followed by one of at most this part of its noise.
 // And of no less than that other part: the noise of few samples is itself known badly, often far too high.
 constexpr double least_progress = 0.7, most_progress = 0.1;
@@ -50,13 +59,13 @@ void Pace::learn(const RoundCost& cost) {
     if (cost.shading_milliseconds > 0 && cost.samples > 0) samples_per_millisecond = double(cost.samples) / cost.shading_milliseconds;
 }
 
-Control::Control(const Settings& settings, const Forecast& forecast, size_t slots, const Pace& pace, double elapsed)
+Control::Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed)
     : settings_(settings), forecast_(forecast), correction_(expected_correction), pace_(pace) {
     // Half of the pixels at most, or small frames would not be interpolated.
     witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), cheap_witnesses, 0.5);
     const double goal = aim * settings.target_error();
-    noise_goal_ = (1 - interpolation_share) * goal * goal;
-    scales_.assign(slots, float(first_scale(elapsed)));
+    noise_goal_ = (1 - interpolation_share) * std::pow(std::max(goal, first_noise), 2);
+    scales_.assign(tiles, float(first_scale(elapsed)));
 }
 
 double Control::first_scale(double elapsed) const {
@@ -74,6 +83,11 @@ double Control::first_scale(double elapsed) const {
     const double noise = forecast_.relative_deviation / std::sqrt(samples);
     const double interpolation = settings_.time_budget() > 0 ? expected_interpolation : unmeasured_interpolation;
     return noise > 0 ? std::min(std::sqrt(interpolation / noise), most) : most;
+}
+
+double Control::tolerance() const {
+    return settings_.target_error() > 0 ? std::clamp(tolerance_share * settings_.target_error(), least_tolerance, most_tolerance)
+                                        : most_tolerance;
 }
 
 const Budget& Control::plan(const Histogram& histogram, double elapsed) {
@@ -109,24 +123,55 @@ bool Control::out_of_time(const RoundCost& cost) {
     return left < std::max(worthwhile_part * settings_.time_budget(), pace_.round_milliseconds);
 }
 
-// Scales each slot's bandwidth by what its witnesses saw. True: some scale has grown.
+namespace {
+
+// A tile's mean squared error by interpolation. doubt: standard errors that may be chance.
+double seen_in(const ErrorEstimate::Tile& tile, double frame_mean, double doubt) {
+    const double count = tile.witnesses, mean = (tile.sum + prior_witnesses * frame_mean) / (count + prior_witnesses);
+    const double deviation = std::sqrt(std::max(tile.squares, 0.0)) / (count + prior_witnesses);
+    return std::max(mean - doubt * deviation, 0.0);
+}
+
+}  // namespace
+
+// Scales each tile's bandwidth by what its witnesses saw. True: some scale has grown.
 bool Control::improve_levels(const ErrorEstimate& estimate) {
     if (settings_.bandwidth_scale() > 0) return false;
     const double target = aim * settings_.target_error();
     const double goal = target > 0 ? target * target : first_part * estimate.noise;  // what the rest of the time leaves
-    const double allowed = interpolation_share * goal;
+    const double noise_allowed = (1 - interpolation_share) * goal;
     // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again.
-    if (target > 0 && estimate.noise > trusted_noise * goal) return false;
+    if (target > 0 && estimate.noise > trusted_noise * noise_allowed) return false;
+    // What the witnesses may have seen by chance is no reason to shade more, unless there is no noise left to blame.
+    const double doubt = estimate.noise > blameless_noise * noise_allowed ? 1 : 0;
+    double witnesses = 0, sum = 0, interpolated = 0;
+    for (const ErrorEstimate::Tile& tile : estimate.tiles) {
+        witnesses += tile.witnesses;
+        sum += tile.sum;
+        interpolated += tile.interpolated;
+    }
+    if (witnesses == 0 || interpolated == 0) return false;
+    const double frame_mean = std::max(sum / witnesses, 0.0);
+    std::vector<double> seen;
+    for (const ErrorEstimate::Tile& tile : estimate.tiles) seen.push_back(seen_in(tile, frame_mean, doubt));
+    // Tiles above a common error are brought down to it: to that which leaves the frame what is allowed.
+    const double allowed = std::max(interpolation_share * goal, goal - estimate.noise) * forecast_.covered;
+    const auto left = [&](double most) {
+        double all = 0;
+        for (size_t i = 0; i < seen.size(); ++i) all += estimate.tiles[i].interpolated * std::min(seen[i], most);
+        return all;
+    };
+    double common = 0, too_much = 1;  // a witness is believed up to 1
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (common + too_much);
+        (left(middle) <= allowed ? common : too_much) = middle;
+    }
     bool grown = false;
-    for (size_t slot = 0; slot < scales_.size(); ++slot) {
-        const ErrorEstimate::Slot& seen = estimate.slots[slot];
-        // What the witnesses may have seen by chance is no reason to shade more, unless there is no noise left to blame.
-        const double doubts = estimate.noise > noise_goal_ ? 2 : estimate.noise > (1 - interpolation_share) * goal ? 1 : 0;
-        const double doubt = doubts * seen.interpolation_deviation;
-        const double certain = std::max(seen.interpolation - doubt, 0.0);
-        const double factor = std::pow(certain / allowed, growth_power);
+    for (size_t i = 0; i < seen.size(); ++i) {
+        if (estimate.tiles[i].interpolated == 0 || !(seen[i] > 0)) continue;
+        const double factor = common > 0 ? std::min(std::pow(seen[i] / common, growth_power), most_growth) : most_growth;
         if (!(factor > least_growth)) continue;
-        scales_[slot] = float(std::min(scales_[slot] * std::min(factor, most_growth), Settings::largest_bandwidth_scale));
+        scales_[i] = float(std::min(scales_[i] * factor, Settings::largest_bandwidth_scale));
         grown = true;
     }
     return grown;
@@ -144,6 +189,9 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     const bool late = out_of_time(cost);
     if (target <= 0 && settings_.time_budget() <= 0) return false;
     if (late || round_ == most_rounds) return false;
+    const double predicted = predicted_noise(histogram_, budget_, settings_.allocation());
+    if (predicted > 0) correction_ = std::max(estimate.noise * forecast_.covered / predicted, 1e-6);
+    surprise_ = estimate.stratification / (correction_ * unsurprising);
     if (target <= 0) {
         improve_levels(estimate);
         return true;
@@ -151,8 +199,6 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     const double careful = std::sqrt(estimate.noise + estimate.interpolation + caution * estimate.interpolation_deviation);
     if (careful <= good_enough * target) return false;
     choose_witnesses(estimate);
-    const double predicted = predicted_noise(histogram_, budget_, settings_.allocation());
-    if (predicted > 0) correction_ = std::max(estimate.noise * forecast_.covered / predicted, 1e-6);
     const bool grown = improve_levels(estimate);
     const double goal = aim * target, kept = std::min(estimate.interpolation, interpolation_share * goal * goal);
     // Stratified points gain more than independent ones from being more.

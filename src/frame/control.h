@@ -34,13 +34,17 @@ struct Pace {
 
 class Control {
 public:
-    // pace: what the device was last seen to do; elapsed: milliseconds since the frame began.
-    Control(const Settings& settings, const Forecast& forecast, size_t slots, const Pace& pace, double elapsed);
+    // tiles: of the frame (frame/estimate.h); pace: what the device was last seen to do; elapsed: milliseconds since the frame began.
+    Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed);
 
-    // Factor on the bandwidth of each BRDF slot, under which levels are chosen.
+    // Factor on the bandwidth in each tile, under which levels are chosen.
     const std::vector<float>& scales() const { return scales_; }
     // The part of pixels that are shaded although they might be interpolated, to measure what interpolation costs.
     double witnesses() const { return witnesses_; }
+    // By how much, relatively, what the pilots expect of a pixel may differ from interpolation of what they expect of its parents.
+    double tolerance() const;
+    // Factor that turns a pixel's measured variance into the predicted one that it deserves; 0 before a round has measured.
+    double surprise() const { return surprise_; }
     // Samples of each bin in this round, those of former rounds included; elapsed: milliseconds since the frame began.
     const Budget& plan(const Histogram& histogram, double elapsed);
     // Whether another round is needed after what the last one gave.
@@ -61,6 +65,7 @@ private:
     Budget budget_;
     double noise_goal_ = 0;   // mean square over the covered pixels
     double correction_ = 0;   // measured noise over predicted
+    double surprise_ = 0;
     Pace pace_;
     double drawn_ = 0;        // samples
     uint32_t round_ = 0;

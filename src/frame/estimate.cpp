@@ -66,6 +66,8 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
     result.slots.resize(slots);
     result.mean_luminance = mean_luminance(pixels);
     std::vector<WitnessSums> witnesses(slots);
+    const size_t tiles = tiles_along(pixels.width), rows = pixels.material.size() / pixels.width;
+    result.tiles.resize(tiles * tiles_along(uint32_t(rows)));
     double spreads = 0, variances = 0, covered = 0;
     for (size_t i = 0; i < pixels.material.size(); ++i) {
         if (pixels.material[i] == 0) continue;
@@ -78,12 +80,19 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         const double spread = pixels.spread[2 * i] / scale;
         spreads += spread * spread;
         variances += variance_of_mean(pixels, i) / (scale * scale);
-        if (is_interpolated(pixels.decision[i])) ++own.interpolated;
+        ErrorEstimate::Tile& tile = result.tiles[i / pixels.width / tile_side * tiles + i % pixels.width / tile_side];
+        if (is_interpolated(pixels.decision[i])) {
+            ++own.interpolated;
+            ++tile.interpolated;
+        }
         if (!is_witness(pixels.decision[i])) continue;
         ++own.witnesses;
         const double square = std::clamp(pixels.spread[2 * i + 1] / (scale * scale), -largest_square, largest_square);
         witnesses[slot].sum += square;
         witnesses[slot].squares += square * square;
+        ++tile.witnesses;
+        tile.sum += square;
+        tile.squares += square * square;
     }
     if (covered == 0) return result;
     if (variances > 0) {

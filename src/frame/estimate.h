@@ -10,8 +10,13 @@ namespace lightband {
 // Relative errors are taken of L + dark_part * mean L (docs/conventions.md, error of a frame).
 constexpr double dark_part = 0.01;
 
+// What interpolation costs is held against the bandwidth in square tiles of so many pixels a side.
+constexpr uint32_t tile_side = 16;
+constexpr uint32_t tiles_along(uint32_t pixels) { return (pixels + tile_side - 1) / tile_side; }
+
 // A round's pixels as read back; all arrays of one length, but radiance (RGBA) and spread (two) interleaved: targets.h.
 struct RoundPixels {
+    uint32_t width = 1;  // of a row
     std::vector<float> radiance, spread;
     std::vector<float> expected;  // luminance, as predicted; empty where nothing was
     std::vector<uint32_t> sample_count;
@@ -25,12 +30,18 @@ struct ErrorEstimate {
         double interpolation = 0;            // over this slot's covered pixels
         double interpolation_deviation = 0;  // standard error of it
     };
+    // Witnesses of a tile: their squared errors by interpolation, and those squares' squares, summed.
+    struct Tile {
+        uint32_t interpolated = 0, witnesses = 0;
+        double sum = 0, squares = 0;
+    };
     double mean_luminance = 0;
     double noise = 0;
     // Noise over what the samples' variance says of independent ones: stratified points err less.
     double stratification = 1;
     double interpolation = 0, interpolation_deviation = 0;
     std::vector<Slot> slots;
+    std::vector<Tile> tiles;  // tiles_along(width) in a row
 
     double error() const;
 };

@@ -35,6 +35,7 @@ double luminance_of(const float* rgb) { return luminance(Vec3(rgb[0], rgb[1], rg
 RoundPixels Frame::Result::read_round() const {
     const size_t count = size_t(stats.width) * stats.height;
     RoundPixels pixels;
+    pixels.width = stats.width;
     pixels.radiance = read_floats(shading.radiance, GL_RGBA, count, 4);
     pixels.spread = read_floats(shading.spread, GL_RG, count, 2);
     if (prediction) pixels.expected = read_floats(prediction->prediction, GL_GREEN, count, 1);

@@ -17,6 +17,10 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
     for (size_t i = 0; i < sum->size(); ++i) (*sum)[i] += double((*scratch)[i]);
 }
 
+// Samples of a round for which the map's directions are drawn anew: those of one drawing, 65,536, would limit the error. It costs as
+// much as half a million samples or so.
+constexpr uint64_t worth_new_points = 1u << 23;
+
 }  // namespace
 
 Frame::Frame(gl::DevicePtr device, uint32_t width, uint32_t height)
@@ -132,15 +136,13 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
     if (prediction != nullptr) {
-        passes::pyramids(*device_, forecast, job->slot_of, control->scales(), settings, next.gbuffer, width_, height_,
-                         *prediction);
-        std::string scales;
-        for (float scale : control->scales()) scales += text(" ", scale);
-        next.plan.finished("pyramids", "least level and largest variance of each block, bandwidth times" + scales,
+        passes::pyramids(*device_, forecast, control->scales(), settings, next.gbuffer, width_, height_, *prediction);
+        const auto [least, most] = std::minmax_element(control->scales().begin(), control->scales().end());
+        next.plan.finished("pyramids", text("least level and largest variance of each block, bandwidth times ", *least, " to ", *most),
                            prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
     }
     job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), settings,
-                                   control->witnesses(), job->covered, next.gbuffer, prediction, next.shading);
+                                   control->witnesses(), forecast, control->tolerance(), control->surprise(), job->covered, next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
     const Budget& budget = control->plan(job->counts.bins(), next.plan.total_milliseconds());
@@ -179,8 +181,10 @@ void Frame::measure(Job* job) const {
 void Frame::rounds(Job* job, const Forecast& forecast) {
     Result& next = *job->result;
     next.shading.clear(device_->gl());
-    Control control(settings, forecast, job->slots.materials.size(), pace_, next.plan.total_milliseconds());
+    Control control(settings, forecast, size_t(tiles_along(width_)) * tiles_along(height_), pace_,
+                    next.plan.total_milliseconds());
     const bool one = settings.target_error() <= 0 && settings.time_budget() <= 0;
+    uint32_t points_seed = settings.seed();
     RoundCost cost;
     do {
         ++next.stats.rounds;
@@ -189,7 +193,8 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
         const uint64_t drawn = job->samples;
         const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
         list(job, &control, forecast);
-        shade(job, settings.seed());
+        if (job->list.total_samples >= job->samples + worth_new_points) points_seed = settings.seed() + next.stats.rounds - 1;
+        shade(job, points_seed);
         measure(job);
         cost.samples = job->samples - drawn;
         cost.elapsed_milliseconds = next.plan.total_milliseconds();

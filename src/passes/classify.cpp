@@ -32,7 +32,8 @@ Histogram Counts::bins() const {
 }
 
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
+                double witnesses, const Forecast& forecast, double tolerance, double surprise, const Covered& covered,
+                const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
@@ -52,6 +53,11 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
         bind_image(gl, 0, prediction->levels, GL_R8UI);
         bind_image(gl, 1, prediction->variances, GL_R32F);
         bind_texture(gl, 4, prediction->bandwidth);
+        bind_texture(gl, 5, prediction->prediction);
+        program.set("mean_radiance", float(forecast.mean_radiance));
+        program.set("tolerance", float(tolerance));
+        bind_texture(gl, 6, target.radiance);
+        program.set("surprise", float(surprise));
     }
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_image(gl, 3, target.sample_count, GL_R32UI);

@@ -17,9 +17,10 @@ struct Counts {
 };
 
 // Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: the part of
-// those that might be interpolated that are shaded all the same.
+// those that might be interpolated that are shaded all the same. tolerance, surprise: shaders/classify.glsl.
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
+                double witnesses, const Forecast& forecast, double tolerance, double surprise, const Covered& covered,
+                const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
 
 // The pixels to shade: slot by slot, those of former rounds apart, by falling sample count.
 struct ShadingList {

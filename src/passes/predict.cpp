@@ -92,14 +92,14 @@ Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& 
     return result;
 }
 
-void pyramids(gl::Device& device, const Forecast& forecast, const SlotTable& slot_of, const std::vector<float>& scales,
+void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales,
               const Settings& settings, const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.size(), 1) * sizeof(float), scales.data());
     const gl::Texture scales_texture = gl::Texture::of_buffer(gl, GL_R32F, scale_buffer);
     uint32_t w = width, h = height;
     for (size_t level = 0; level < target.rows.size(); ++level) {
-        const gl::Program& program = device.compute("pyramid", level == 0 ? "FIRST_LEVEL" : "");
+        const gl::Program& program = device.compute("pyramid", level == 0 ? text("FIRST_LEVEL\nTILE_SIDE ", tile_side) : "");
         program.set("finer_size", int32_t(w), int32_t(h));
         if (level == 0) {
             program.set("mean_radiance", float(forecast.mean_radiance));
@@ -114,8 +114,7 @@ void pyramids(gl::Device& device, const Forecast& forecast, const SlotTable& slo
         bind_texture(gl, 0, target.prediction);
         bind_texture(gl, 1, target.bandwidth);
         bind_texture(gl, 2, gbuffer.material);
-        bind_texture(gl, 3, slot_of.texture);
-        bind_texture(gl, 4, scales_texture);
+        bind_texture(gl, 3, scales_texture);
         bind_image(gl, 0, target.levels, GL_R8UI);
         bind_image(gl, 1, target.variances, GL_R32F);
         dispatch_pixels(gl, w, h);

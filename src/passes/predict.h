@@ -21,9 +21,9 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
 
 Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& prediction, uint32_t height);
 
-// Levels (eq. 11) and relative variances with their min and max pyramids (shaders/pyramid.glsl). scales: factor on the bandwidth of
-// each slot.
-void pyramids(gl::Device& device, const Forecast& forecast, const SlotTable& slot_of, const std::vector<float>& scales,
+// Levels (eq. 11) and relative variances with their min and max pyramids (shaders/pyramid.glsl). scales: factor on the bandwidth in
+// each tile (frame/estimate.h).
+void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales,
               const Settings& settings, const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& target);
 
 }  // namespace lightband::passes

@@ -117,19 +117,22 @@ ErrorEstimate estimate_of(double noise, double interpolation) {
     estimate.noise = noise;
     estimate.interpolation = interpolation;
     estimate.slots = {{1000, 600, 100, interpolation, 0}};
+    // Two tiles; the first holds all of the error.
+    const double mean = interpolation * 1520 / 300;
+    estimate.tiles = {{300, 50, 50 * mean, 50 * mean * mean}, {300, 50, 0, 0}};
     return estimate;
 }
 
 void rounds_stop_where_the_error_is_reached(void**) {
     const Settings settings = asking("target_error", 0.05);
-    Control control(settings, {1520, 1, 1}, 1, {}, 0);
+    Control control(settings, {1520, 1, 1}, 2, {}, 0);
     control.plan(some_histogram(), 0);
     assert_false(control.again(estimate_of(0.03 * 0.03, 0.02 * 0.02), {}));
 }
 
 void noise_asks_for_samples_and_interpolation_for_levels(void**) {
     const Settings settings = asking("target_error", 0.05);
-    Control control(settings, {1520, 1, 1}, 1, {}, 0);
+    Control control(settings, {1520, 1, 1}, 2, {}, 0);
     const Budget first = control.plan(some_histogram(), 0);
     const float scale = control.scales()[0];
     assert_true(control.again(estimate_of(0.2 * 0.2, 0), {}));
@@ -138,6 +141,42 @@ void noise_asks_for_samples_and_interpolation_for_levels(void**) {
     assert_true(second[33] > 4 * first[33]);  // a sixteenth of the noise by four times the samples or more
     assert_true(control.again(estimate_of(0.02 * 0.02, 0.1 * 0.1), {}));
     assert_true(control.scales()[0] > scale);
+    assert_true(control.scales()[1] == scale);  // where no witness saw any error
+}
+
+// Few witnesses may see an error by chance: while there is noise to blame, a tile's are not believed alone.
+void a_single_witness_is_doubted_while_there_is_noise(void**) {
+    const Settings settings = asking("target_error", 0.05);
+    const double allowed = 0.7 * 0.044 * 0.044;  // noise, as Control shares it
+    for (const bool noisy : {true, false}) {
+        Control control(settings, {1520, 1, 1}, 2, {}, 0);
+        control.plan(some_histogram(), 0);
+        const float scale = control.scales()[0];
+        ErrorEstimate estimate = estimate_of((noisy ? 2 : 0.9) * allowed, 0.02 * 0.02);
+        estimate.interpolation_deviation = 0.04 * 0.04;
+        estimate.tiles = {{300, 8, 0.5, 0.25}, {300, 200, 0, 0}};  // one of eight, by 70 %
+        assert_true(control.again(estimate, {}));
+        assert_true((control.scales()[0] > scale) != noisy);
+    }
+}
+
+void tiles_count_their_own_witnesses(void**) {
+    Random random(14);
+    RoundPixels pixels = synthetic(random, 40 * 24, 0.16, 0.1);
+    pixels.width = 40;  // three tiles a row, the last of 8 pixels, and two rows of them
+    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1);
+    assert_int_equal(estimate.tiles.size(), 6);
+    uint64_t witnesses = 0, interpolated_pixels = 0;
+    for (const ErrorEstimate::Tile& tile : estimate.tiles) {
+        witnesses += tile.witnesses;
+        interpolated_pixels += tile.interpolated;
+    }
+    assert_int_equal(witnesses, estimate.slots[0].witnesses);
+    assert_int_equal(interpolated_pixels, estimate.slots[0].interpolated);
+    // Pixels whose number is a multiple of eight are witnesses: 40 a row leave two, two and one to the tiles.
+    assert_int_equal(estimate.tiles[0].witnesses, 16 * 2);
+    assert_int_equal(estimate.tiles[2].witnesses, 16 * 1);
+    assert_int_equal(estimate.tiles[5].witnesses, 8 * 1);
 }
 
 void a_time_is_shared_between_two_rounds(void**) {
@@ -145,7 +184,7 @@ void a_time_is_shared_between_two_rounds(void**) {
     Pace pace;
     pace.samples_per_millisecond = 1000;
     pace.round_milliseconds = 20;
-    Control control(settings, {1520, 1, 1}, 1, pace, 10);
+    Control control(settings, {1520, 1, 1}, 2, pace, 10);
     const Histogram histogram = some_histogram();
     const auto samples = [&](const Budget& budget) {
         double sum = 0;
@@ -179,6 +218,8 @@ int main() {
         cmocka_unit_test(a_budget_reaches_the_noise_asked_with_the_fewest_samples),
         cmocka_unit_test(rounds_stop_where_the_error_is_reached),
         cmocka_unit_test(noise_asks_for_samples_and_interpolation_for_levels),
+        cmocka_unit_test(a_single_witness_is_doubted_while_there_is_noise),
+        cmocka_unit_test(tiles_count_their_own_witnesses),
         cmocka_unit_test(a_time_is_shared_between_two_rounds),
     };
     return cmocka_run_group_tests_name("control", tests, nullptr, nullptr);
