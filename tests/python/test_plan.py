@@ -59,7 +59,7 @@ def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):
     """The map's directions, 65,536 of 32 bytes, and 64 clusters of as many are made when they are first asked for."""
     before = rendered(context, sphere, samples=16, coarsest_level=0, sampler="brdf").stats.device_bytes
     after = rendered(context, sphere, samples=16, coarsest_level=0, sampler="combined").stats.device_bytes
-    importance = 64 * 16 * 16 * 4
+    importance = 64 * (16 * 16 + 1) * 4  # of each view, cells and their integral
     assert after - before == 65536 * 32 + 64 * 32 + importance
 
 
