@@ -47,6 +47,8 @@ constexpr double least_progress = 0.7, most_progress = 0.1;
 constexpr double telling_witnesses = 256, cheap_witnesses = 1.0 / 32;
 // Part of the time that the first of two rounds may take, and the least part for which another is worth its lists.
 constexpr double first_part = 0.3, worthwhile_part = 0.1;
+// A pixel costs as much as some 25 samples before its first one: so few are drawn even where no time is left.
+constexpr double fewest_in_time = 6;
 // Of what a round spends beside shading, the part that comes after it.
 constexpr double after_shading = 0.6;
 
@@ -68,7 +70,7 @@ Control::Control(const Settings& settings, const Forecast& forecast, size_t tile
     scales_.assign(tiles, float(first_scale(elapsed)));
 }
 
-double Control::first_scale(double elapsed) const {
+double Control::first_scale(double elapsed) {
     if (settings_.bandwidth_scale() > 0) return settings_.bandwidth_scale();
     const double most = Settings::largest_bandwidth_scale;
     if (settings_.target_error() > 0)
@@ -80,14 +82,15 @@ double Control::first_scale(double elapsed) const {
         const double left = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.1 * settings_.time_budget());
         samples = left * pace_.samples_per_millisecond / std::max(forecast_.covered, 1.0);
     }
-    const double noise = forecast_.relative_deviation / std::sqrt(samples);
+    const double noise = expected_noise_ = forecast_.relative_deviation / std::sqrt(samples);
     const double interpolation = settings_.time_budget() > 0 ? expected_interpolation : unmeasured_interpolation;
     return noise > 0 ? std::min(std::sqrt(interpolation / noise), most) : most;
 }
 
 double Control::tolerance() const {
-    return settings_.target_error() > 0 ? std::clamp(tolerance_share * settings_.target_error(), least_tolerance, most_tolerance)
-                                        : most_tolerance;
+    if (settings_.target_error() > 0)
+        return std::clamp(tolerance_share * settings_.target_error(), least_tolerance, most_tolerance);
+    return std::max(most_tolerance, expected_noise_);
 }
 
 const Budget& Control::plan(const Histogram& histogram, double elapsed) {
@@ -97,8 +100,8 @@ const Budget& Control::plan(const Histogram& histogram, double elapsed) {
     if (settings_.target_error() > 0) {
         budget_ = plan_noise(histogram, noise_goal_ * forecast_.covered / correction_, settings_.max_samples(), settings_.allocation());
     } else if (settings_.time_budget() > 0) {
-        budget_ = plan_mean(histogram, (drawn_ + time_to_shade(elapsed) * pace_.samples_per_millisecond) / pixels,
-                            settings_.max_samples());
+        const double mean = (drawn_ + time_to_shade(elapsed) * pace_.samples_per_millisecond) / pixels;
+        budget_ = plan_mean(histogram, std::max(mean, fewest_in_time), settings_.max_samples());
     } else if (settings_.method() == Method::reference) {
         budget_.assign(budget_bins, settings_.samples());
     } else {

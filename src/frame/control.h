@@ -55,7 +55,7 @@ private:
     void choose_witnesses(const ErrorEstimate& estimate);
     bool out_of_time(const RoundCost& cost);
     double time_to_shade(double elapsed) const;
-    double first_scale(double elapsed) const;
+    double first_scale(double elapsed);
 
     const Settings& settings_;
     const Forecast forecast_;
@@ -66,6 +66,7 @@ private:
     double noise_goal_ = 0;   // mean square over the covered pixels
     double correction_ = 0;   // measured noise over predicted
     double surprise_ = 0;
+    double expected_noise_ = 0;  // of a frame that asks for no error
     Pace pace_;
     double drawn_ = 0;        // samples
     uint32_t round_ = 0;
