@@ -26,7 +26,7 @@ def rendered(context, scene, **settings):
 def deviation(frame, truth):
     """Root mean square over the covered pixels, relative to what they show."""
     covered = truth.material > 0
-    return np.sqrt(np.mean((frame.color[covered] / truth.color[covered] - 1) ** 2))
+    return np.sqrt(np.mean((frame.color[covered][:, :3] / truth.color[covered][:, :3] - 1) ** 2))
 
 
 @pytest.fixture(scope="module")
@@ -42,10 +42,16 @@ def test_a_constant_map_has_no_footprint(context):
 
 
 def test_a_mirror_looks_the_map_up_as_it_is(context, smooth):
-    """Footprints below a texel of 256 x 256 (2e-4 steradians at most) are lookups of the map itself: not a bit changes."""
+    """A footprint below a texel of 128 x 128 (8e-4 steradians at most) is a lookup of the map itself.
+
+    GGX of alpha a draws densities below p with a chance of 2 a sqrt(pi p): with eight samples for each replicate, footprints of
+    1 / (8 p) reach a texel for 0.5 % of the samples, and 7 % of the pixels have one. All others keep every bit.
+    """
     scene = scene_of(context, context.ggx(1e-4, (0.9, 0.9, 0.9)), smooth)
     plain, filtered = (rendered(context, scene, samples=16, sampler="brdf", **kind) for kind in (PLAIN, FOOTPRINT))
-    assert plain.color.tobytes() == filtered.color.tobytes()
+    covered = plain.material > 0
+    assert (plain.color[covered] != filtered.color[covered]).any(axis=-1).mean() < 0.15
+    assert deviation(filtered, plain) < 0.05  # 7 % of the pixels, one of whose 16 samples is blurred
 
 
 @pytest.mark.parametrize("sampler", ["brdf", "combined"])
@@ -53,7 +59,8 @@ def test_a_footprint_takes_noise_away_and_its_bias_falls(context, smooth, sample
     scene = scene_of(context, context.ggx(0.3, (0.9, 0.6, 0.3)), smooth)
     truth = rendered(context, scene, samples=1024, accumulate=16, seed=9, **PLAIN)
     plain, filtered = (rendered(context, scene, samples=16, sampler=sampler, **kind) for kind in (PLAIN, FOOTPRINT))
-    assert deviation(filtered, truth) < (0.5 if sampler == "brdf" else 1.0) * deviation(plain, truth)
+    # The BRDF's noise falls by a factor; the combined sampler's is the map's here (docs/decisions/0008), and stays as it is.
+    assert deviation(filtered, truth) < (0.5 if sampler == "brdf" else 1.25) * deviation(plain, truth)
     # Sixteen times the samples shrink footprints to a sixteenth: a bias of second order falls by sixteen, noise by four and more.
     assert deviation(rendered(context, scene, samples=256, sampler=sampler, **FOOTPRINT), truth) < deviation(filtered, truth) / 3
 
@@ -64,7 +71,7 @@ def test_the_darkest_and_the_brightest_map(context, value):
     texels = np.full((16, 32, 3), value, np.float32)
     scene = scene_of(context, context.ggx(0.4, (0.9, 0.9, 0.9)), context.environment(texels))
     for sampler in ("brdf", "combined"):
-        color = rendered(context, scene, samples=16, sampler=sampler, **FOOTPRINT).color
+        color = rendered(context, scene, samples=16, sampler=sampler, **FOOTPRINT).color[..., :3]
         assert np.isfinite(color).all()
         assert color.max() <= 1.5 * texels.max()  # twice what is reflected would show a ceiling that was counted twice
 
@@ -78,7 +85,7 @@ def test_one_texel_of_a_million(context):
     covered = truth.material > 0
     assert np.isfinite(filtered.color).all()
     # The lamp is the map's sampler's: what it sends is as well known as without the filter.
-    assert abs(filtered.color[covered].mean() / truth.color[covered].mean() - 1) < 0.02
+    assert abs(filtered.color[covered][:, :3].mean() / truth.color[covered][:, :3].mean() - 1) < 0.02
 
 
 def test_layers_are_made_when_they_are_asked_for(context):
