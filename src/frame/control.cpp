@@ -28,8 +28,8 @@ constexpr double caution = 1;
 // smaller part would ask, and to no less noise than that: samples drawn early are kept, samples drawn beyond need are lost.
 constexpr double expected_correction = 0.3, first_noise = 0.04;
 constexpr uint32_t most_rounds = 8;
-// A pixel whose samples vary so many times more than predicted, as predictions go in its frame, found a light that the pilots did not:
-// it gets samples by what was measured. Single pixels' variances are known to a factor of two or so.
+// A pixel whose samples vary so many times more than predicted, as predictions go in its frame, found a light that the pilots
+// did not: it gets samples by what was measured. Single pixels' variances are known to a factor of two or so.
 constexpr double unsurprising = 4;
 // Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
 constexpr double stratified_gain = 1.25;

@@ -138,11 +138,13 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
     if (prediction != nullptr) {
         passes::pyramids(*device_, forecast, control->scales(), settings, next.gbuffer, width_, height_, *prediction);
         const auto [least, most] = std::minmax_element(control->scales().begin(), control->scales().end());
-        next.plan.finished("pyramids", text("least level and largest variance of each block, bandwidth times ", *least, " to ", *most),
+        next.plan.finished("pyramids",
+                           text("least level and largest variance of each block, bandwidth times ", *least, " to ", *most),
                            prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
     }
     job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), settings,
-                                   control->witnesses(), forecast, control->tolerance(), control->surprise(), job->covered, next.gbuffer, prediction, next.shading);
+                                   control->witnesses(), forecast, control->tolerance(), control->surprise(), job->covered,
+                                   next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
     const Budget& budget = control->plan(job->counts.bins(), next.plan.total_milliseconds());
