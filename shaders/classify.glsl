@@ -82,10 +82,6 @@ int share(float variance, int level) {
     return clamp(int(round(octave)) + BINS / 2, 0, BINS - 1);
 }
 
-#endif
-
-#if !defined(SHADE_ALL)
-
 // The relative variance of a sample as former rounds measured it.
 float measured_variance(ivec2 at) {
     vec4 radiance = texelFetch(radiances, at, 0);

@@ -49,6 +49,13 @@ inline double octahedral_stretch(double u, double v, double w, double square_sid
     const double half = 0.5 * (aa - bb);
     return square_sides / s * std::sqrt(0.5 * (aa + bb) + std::sqrt(half * half + ab * ab));
 }
+// The side, a power of two in [smallest, largest], whose texels are about as wide as those of a latitude-longitude map.
+inline uint32_t octahedral_side(uint32_t map_height, uint32_t smallest, uint32_t largest) {
+    uint32_t side = smallest;
+    while (side < map_height && side < largest) side *= 2;
+    return side;
+}
+
 // Lookups along each side of a texel of an octahedral square so that they lie no farther apart than the texels of a
 // latitude-longitude map, also where the square's are widest (their mean width is sqrt(4 pi) / side radians; the largest is 1.7
 // times that).

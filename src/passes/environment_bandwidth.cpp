@@ -12,12 +12,6 @@ namespace {
 // The square's side: its mean texel is about as wide as the map's; bounded so that a frame's lookups stay in caches.
 constexpr uint32_t smallest_side = 64, largest_side = 1024;
 
-uint32_t side_for(uint32_t map_height) {
-    uint32_t side = smallest_side;
-    while (side < map_height && side < largest_side) side *= 2;
-    return side;
-}
-
 void dispatch_square(const gl::Functions& gl, uint32_t side) { dispatch_pixels(gl, side, side); }
 
 }  // namespace
@@ -25,7 +19,7 @@ void dispatch_square(const gl::Functions& gl, uint32_t side) { dispatch_pixels(g
 EnvironmentBandwidth environment_bandwidth(gl::Device& device, const gl::Texture& map, uint32_t map_height, BandRule rule) {
     const gl::Functions& gl = device.gl();
     EnvironmentBandwidth result;
-    const uint32_t side = result.side = side_for(map_height);
+    const uint32_t side = result.side = octahedral_side(map_height, smallest_side, largest_side);
     const uint32_t all_levels = uint32_t(std::log2(side)) + 1;
     const uint32_t levels = all_levels - 1;  // of wavelets: down to a single texel
     result.moments = gl::Texture::image(gl, GL_RGBA32F, side, side, all_levels);

@@ -13,19 +13,14 @@ namespace {
 // Footprints below a texel are looked up in the map itself; 256 texels a side are some 0.8 degrees wide.
 constexpr uint32_t smallest_side = 16, largest_side = 256;
 
-uint32_t side_for(uint32_t map_height) {
-    uint32_t side = smallest_side;
-    while (side < map_height && side < largest_side) side *= 2;
-    return side;
-}
-
 }  // namespace
 
 LightLayers split_light(gl::Device& device, const gl::Texture& map, uint32_t map_height, double total, Lookup lookup,
                         LightLayers::Kind kind) {
     const gl::Functions& gl = device.gl();
     LightLayers result;
-    const uint32_t side = result.side = side_for(map_height), levels = uint32_t(std::log2(side)) + 1;
+    const uint32_t side = octahedral_side(map_height, smallest_side, largest_side);
+    const uint32_t levels = uint32_t(std::log2(side)) + 1;
     // Half floats hold what is cut, 3 2^13 times the mean at most; of the whole, a texel may be brighter.
     const bool whole = kind == LightLayers::Kind::whole;
     const GLenum format = whole ? GL_RGBA32F : GL_RGBA16F;

@@ -31,7 +31,6 @@ struct LightLayers {
     enum class Kind { split, whole };
     static constexpr uint32_t split_count = 8;
     static constexpr double first_ceiling = 0.04;  // about half the mean radiance: 1 / (8 pi)
-    uint32_t side = 0;
     double unit = 0;      // radiance of a value of 1: the map's mean
     gl::Texture texture;  // array, mip-mapped
 
