@@ -22,6 +22,15 @@ uniform float footprint_level;  // log2 of the moments' side, squared, over 4 pi
 const float nyquist = 0.5;      // cycles per pixel: what the finest level can show
 const float largest_float = 3.4028234e38;
 
+// Of the samples, one in lobe_share is the lobe's. map_variance: of the map's, in parts of the square of what they add up to.
+#if defined(SAMPLER_CUT)
+const float lobe_share = 2.0, map_variance = 0.02;
+#elif defined(SAMPLER_COMBINED)
+const float lobe_share = 2.0, map_variance = 0.1;
+#else
+const float lobe_share = 1.0, map_variance = 0.0;
+#endif
+
 struct Surface {
     vec3 position;  // from the eye
     vec3 normal;
@@ -98,16 +107,18 @@ void main() {
         vec2 nu = reflected_bandwidth(light_bandwidth, b.y, max(curvature, 0.0), cos_outgoing, distance_to_eye);
         weighted += lambda * vec2(nu.x, min(nu.y, frequency_limit));
         weights += lambda;
-        // Mean square of f cos L / density over the footprint. Where the map is drawn too, the balance heuristic leaves the lobe's
-        // sampler a part; the map's density follows the radiance, and that of the light that matters is its mean square over its
-        // mean.
-#if defined(SAMPLER_COMBINED)
-        float part = b.w / (b.w + map_density * light.y / light.x * MAP_WORTH);  // that is left to the lobe's sampler
+        // Mean square of f cos L / density over the footprint. Where the map is sampled too, the lobe's sampler keeps a part; the map's
+        // density follows the radiance, and that of the light that matters is its mean square over its mean.
+        float light_density = map_density * light.y / light.x;
+#if defined(SAMPLER_CUT)
+        float part = 1.0 / (1.0 + 4.0 * pi * light_density);
+#elif defined(SAMPLER_COMBINED)
+        float part = b.w / (b.w + light_density * MAP_WORTH);
+#else
+        const float part = 1.0;
+#endif
         second += light.y * a.w * a.w * part * part;
         from_lobe += lambda * part;
-#else
-        second += light.y * a.w * a.w;
-#endif
         printed += (min(light_bandwidth, frequency_limit) + min(b.y, frequency_limit)) * b.x * light.y;
     }
     // All weights zero: nothing arrives, and a black pixel has no bandwidth.
@@ -122,13 +133,10 @@ void main() {
 #if defined(VARIANCE_PRINTED)
     // Eq. 9 bounds a mirror's variance so loosely that under the brightest texels (1e15) the bound is beyond float's range.
     float variance = min(4.0 * pi * pi * printed / pilot_count, largest_float);
-#elif defined(SAMPLER_COMBINED)
-    // Half the samples draw each part. What the map's clusters leave of the variance of theirs is a tenth of its square or less.
-    const float cluster_variance = 0.1;
-    float lobe_mean = from_lobe / pilot_count, map_mean = mean - lobe_mean;
-    float variance = 2.0 * (max(0.0, second / pilot_count - lobe_mean * lobe_mean) + cluster_variance * map_mean * map_mean);
 #else
-    float variance = max(0.0, second / pilot_count - mean * mean);
+    // What is left to the map's sampler varies less: its clusters or its cut know where it comes from.
+    float lobe_mean = from_lobe / pilot_count, map_mean = mean - lobe_mean;
+    float variance = lobe_share * (max(0.0, second / pilot_count - lobe_mean * lobe_mean) + map_variance * map_mean * map_mean);
 #endif
     imageStore(bandwidth, at, vec4(nu, image_bandwidth, max(curvature, 0.0)));
     imageStore(prediction, at, vec4(variance, mean, 0, 0));

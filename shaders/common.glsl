@@ -31,8 +31,10 @@ vec2 latitude_longitude(vec3 d) {
 
 // The octahedral square around +Y, in [0, 1]^2 (src/bandwidth/octahedral.h).
 vec2 fold(vec2 p) { return (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0); }
+// A texel of a square of so many a side covers 4 reach^3 / side^2 steradians.
+float octahedral_reach(vec3 d) { return abs(d.x) + abs(d.y) + abs(d.z); }
 vec2 octahedral(vec3 d) {
-    vec2 p = d.xz / (abs(d.x) + abs(d.y) + abs(d.z));
+    vec2 p = d.xz / octahedral_reach(d);
     return 0.5 * (d.y < 0.0 ? fold(p) : p) + 0.5;
 }
 vec3 octahedral_direction(vec2 square) {

@@ -1,4 +1,4 @@
-// Light from a direction: all of it, or the part that a lobe's sample keeps where the map is sampled too.
+// Light from a direction: all of it, or what the lobe's samples look up where the rest is summed over a cut (shaders/cut.glsl).
 
 layout(binding = 0) uniform sampler2D map;  // RGB: radiance; alpha: the density with which the map's sampler draws it, 1/steradian
 
@@ -12,47 +12,54 @@ vec4 light_from(vec3 direction) {
 #endif
 }
 
-#if defined(FILTERED)
+#if defined(BELOW_CEILINGS)
 
-// src/scene/light.h, LightLayers.
-layout(binding = 13) uniform sampler2DArray light_layers;
-uniform float light_unit;
-
-#if defined(SAMPLER_COMBINED)
-
-// The layer that fits a lobe's density, LIGHT_LAYERS and more where none does. density: a fraction, see shaders/lobe.glsl; a table's
-// mirror direction has infinite density.
-float light_layer(vec2 density) {
-    const float smallest = 1e-37;  // of float's normal range, and a little
-    float relative = density.x / max(density.y * (FIRST_CEILING * MAP_WORTH), smallest);
-    return max(round(0.5 * log2(max(relative, smallest))), 0.0);
-}
-
-// The parts of the light that samples of the lobe and of the map keep; their sum is 1. Beyond the last layer the ceiling follows the
-// density itself, as in the balance heuristic.
-vec2 split_parts(vec2 density, float layer, float light_density) {
-    vec2 parts = layer < float(LIGHT_LAYERS) ? vec2(FIRST_CEILING * exp2(2.0 * layer), light_density)
-                                             : vec2(density.x, MAP_WORTH * light_density * density.y);
-    return parts / (parts.x + parts.y);
+// The part of the light that lies below a soft ceiling: src/sampling/light_tree.h. map_density: 4 pi times it is the radiance, in
+// units of the map's mean.
+float part_below(int layer, float map_density) {
+    float ceiling = FIRST_CEILING * exp2(2.0 * float(layer));
+    return ceiling / (ceiling + 4.0 * pi * map_density);
 }
 
 #else
 
-float light_layer(vec2 density) { return 0.0; }
-vec2 split_parts(vec2 density, float layer, float light_density) { return vec2(1.0, 0.0); }
+float part_below(int layer, float map_density) { return 1.0; }
 
 #endif
 
-// What a sample of the lobe keeps, averaged over its footprint, of which the whole lobe holds that many.
+#if defined(FILTERED)
+
+layout(binding = 13) uniform sampler2DArray footprint_light;  // shaders/footprint_light.glsl
+uniform float light_unit;
+
+#if defined(BELOW_CEILINGS)
+
+// The ceiling that suits a lobe's density, where the balance heuristic weighs a sample of the lobe and MAP_WORTH of the map alike;
+// LIGHT_LAYERS where none is that high. density: a fraction, see shaders/lobe.glsl; a table's mirror direction has infinite density.
+int light_layer(vec2 density) {
+    const float smallest = 1e-37;  // of float's normal range, and a little
+    float relative = 4.0 * pi * density.x / max(density.y * (FIRST_CEILING * MAP_WORTH), smallest);
+    return int(clamp(round(0.5 * log2(max(relative, smallest))), 0.0, float(LIGHT_LAYERS)));
+}
+
+#else
+
+int light_layer(vec2 density) { return 0; }
+
+#endif
+
+// The mean over a sample's footprint, of which the whole lobe holds that many, of what a cut leaves it.
 vec3 light_for_lobe(vec3 direction, vec2 density, float footprints) {
-    float layer = light_layer(density);
-    float reach = abs(direction.x) + abs(direction.y) + abs(direction.z), side = float(textureSize(light_layers, 0).x);
+    float reach = octahedral_reach(direction), side = float(textureSize(footprint_light, 0).x);
+    int layer = light_layer(density);
     // Over a footprint, 1 / (footprints density) steradians; a texel covers 4 reach^3 / side^2.
     float texels = side * side * density.y / (4.0 * footprints * reach * reach * reach);
-    if (layer < float(LIGHT_LAYERS) && texels > density.x)
-        return textureLod(light_layers, vec3(octahedral(direction), layer), 0.5 * log2(texels / density.x)).rgb * light_unit;
+    if (layer < LIGHT_LAYERS && texels > density.x) {
+        vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels / density.x));
+        return mean.rgb * (light_unit / mean.a);
+    }
     vec4 light = light_from(direction);
-    return light.rgb * split_parts(density, layer, light.a).x;
+    return layer < LIGHT_LAYERS ? light.rgb * part_below(layer, light.a) : light.rgb;
 }
 
 #endif

@@ -28,7 +28,7 @@ lb_setting_info choice_of(const char* name, const char* choices, const char* sta
 // The order is that of the enumerations in settings.h and elsewhere; Place names it.
 enum Place {
     place_method, place_target_error, place_time_budget, place_samples, place_max_samples, place_bandwidth_scale, place_coarsest_level, place_pilots,
-    place_transport, place_band_rule, place_variance, place_allocation, place_sampler, place_filter, place_sequence, place_brdf_lookup,
+    place_transport, place_band_rule, place_variance, place_allocation, place_sampler, place_sequence, place_brdf_lookup,
     place_environment_lookup, place_background, place_seed, place_accumulate, place_count
 };
 
@@ -63,13 +63,12 @@ const lb_setting_info table[place_count] = {
     choice_of("allocation", "least_error|constant_variance", "least_error",
               "How samples are shared. least_error: in proportion to the square root of relative variance times the area a pixel "
               "is interpolated over. constant_variance: in proportion to relative variance (section 2.4)."),
-    choice_of("sampler", "combined|brdf", "combined",
-              "Where an adaptive frame's samples come from. combined: half from the BRDF, half from the map, by the balance "
-              "heuristic (Veach 1997). brdf: the papers'. A reference always samples the BRDF."),
-    choice_of("filter", "none|footprint", "none",
-              "footprint: the lobe's samples of an adaptive frame look up the mean of the map over the part of directions that each "
-              "stands for (Krivanek and Colbert 2008), at a bias that falls with the samples. none: without. A reference is never "
-              "filtered."),
+    choice_of("sampler", "cut|combined|filtered|brdf", "cut",
+              "Where an adaptive frame's samples come from. cut: half look up what the lobe's samples stand for in the map under a soft "
+              "ceiling, half are parts of what exceeds it (docs/decisions/0009); biased, by less the more samples. combined: half from "
+              "the BRDF, half from the map, by the balance heuristic (Veach 1997); unbiased. filtered: from the BRDF, each looking up "
+              "the mean of the map over the directions that it stands for (Krivanek and Colbert 2008); biased likewise. brdf: the "
+              "papers'; unbiased. A reference always samples the BRDF."),
     choice_of("sequence", "sobol|random", "sobol",
               "Points of an adaptive frame: a scrambled (0,2)-sequence, or random numbers. A reference is always random."),
     choice_of("brdf_lookup", "nearest|linear", "nearest", "Lookup in a tabulated BRDF."),
@@ -172,9 +171,8 @@ Sequence Settings::sequence() const {
     return values_[place_sequence] == 0 && method() == Method::adaptive ? Sequence::sobol : Sequence::random;
 }
 Sampler Settings::sampler() const {
-    return values_[place_sampler] == 0 && method() == Method::adaptive ? Sampler::combined : Sampler::brdf;
+    return method() == Method::adaptive ? Sampler(int(values_[place_sampler])) : Sampler::brdf;
 }
-bool Settings::filtered() const { return values_[place_filter] != 0 && method() == Method::adaptive; }
 Lookup Settings::brdf_lookup() const { return values_[place_brdf_lookup] == 0 ? Lookup::nearest : Lookup::linear; }
 Lookup Settings::environment_lookup() const {
     return values_[place_environment_lookup] == 0 ? Lookup::linear : Lookup::nearest;

@@ -16,7 +16,7 @@ namespace lightband {
 enum class Method { adaptive, reference };
 enum class Variance { moments, printed };
 enum class Sequence { sobol, random };
-enum class Sampler { combined, brdf };
+enum class Sampler { cut, combined, filtered, brdf };
 
 class Settings {
 public:
@@ -38,7 +38,6 @@ public:
     Allocation allocation() const;
     Sequence sequence() const;
     Sampler sampler() const;
-    bool filtered() const;  // lookups of the map, over footprints
     Lookup brdf_lookup() const;
     Lookup environment_lookup() const;
     double target_error() const;  // 0: none

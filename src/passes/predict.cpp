@@ -9,6 +9,11 @@
 namespace lightband::passes {
 namespace {
 
+std::string sampler_definition(Sampler sampler) {
+    if (sampler == Sampler::cut) return "\nSAMPLER_CUT";
+    return sampler == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_WORTH ", map_sample_worth) : "";
+}
+
 // The pilots of every material in one table, slot by slot.
 gl::Buffer all_pilots(const gl::Functions& gl, const Scene::Slots& slots, const Settings& settings) {
     std::vector<Pilot> all;
@@ -59,7 +64,7 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
         "bandwidth", text("LOBE_VIEWS ", LobeTable::views,
                           settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
                           settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
-                          settings.sampler() == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_WORTH ", map_sample_worth) : ""));
+                          sampler_definition(settings.sampler())));
     // Of a map so dark that this leaves the range of float, every squared radiance is 0: the largest float times that is 0, as it
     // should be, where infinity times that is not a number.
     const double map_density = std::min(1 / scene.light->sampler().total(), double(std::numeric_limits<float>::max()));

@@ -12,23 +12,55 @@ namespace {
 // below the watchdogs of graphics drivers.
 constexpr uint64_t dispatch_samples = 1u << 23;
 
-LightLayers::Kind layers_for(const Settings& settings) {
-    return settings.sampler() == Sampler::combined ? LightLayers::Kind::split : LightLayers::Kind::whole;
-}
-
 std::string definitions(const Material& material, const Settings& settings) {
     std::string result = material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples);
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
-    if (settings.sampler() == Sampler::combined)
-        result += text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::cluster_count, "\nMAP_WORTH ",
-                       map_sample_worth);
-    if (settings.filtered()) result += "\nFILTERED\n" + LightLayers::definitions(layers_for(settings));
+    switch (settings.sampler()) {
+        case Sampler::cut:
+            result += text("\nSAMPLER_CUT\nFILTERED\nTRUNK_PARTS ", LightTree::trunk_count, "\nTREE_DEPTH ", LightTree::depth, "\nTREE_HEAP ",
+                           LightTree::heap, "u\nMAP_WORTH ", map_sample_worth, "\n",
+                           FootprintLight::definitions(FootprintLight::Kind::below_ceilings));
+            break;
+        case Sampler::combined:
+            result += text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::cluster_count, "\nMAP_WORTH ",
+                           map_sample_worth);
+            break;
+        case Sampler::filtered:
+            result += "\nFILTERED\n" + FootprintLight::definitions(FootprintLight::Kind::whole);
+            break;
+        case Sampler::brdf: break;
+    }
     if (settings.environment_lookup() == Lookup::nearest) result += "\nENVIRONMENT_NEAREST";
     return result;
 }
 
 void set_axes(const gl::Program& program, const char* name, const Vec3& v) {
     program.set(name, {float(v.x), float(v.y), float(v.z)});
+}
+
+// The tables of the sampler, each made when first asked for.
+void bind_sampler(const gl::Functions& gl, const Light& light, const Material& material, const Settings& settings, uint32_t seed,
+                  const gl::Program& program) {
+    const Lookup lookup = settings.environment_lookup();
+    const Sampler sampler = settings.sampler();
+    if (sampler == Sampler::filtered || sampler == Sampler::cut) {
+        const FootprintLight& footprints =
+            light.footprints(lookup, sampler == Sampler::cut ? FootprintLight::Kind::below_ceilings : FootprintLight::Kind::whole);
+        program.set("light_unit", float(footprints.unit));
+        bind_texture(gl, 13, footprints.texture);
+    }
+    if (sampler == Sampler::cut) {
+        const LightAbove& above = light.above(lookup);
+        bind_texture(gl, 10, above.texture);
+        bind_uniforms(gl, 0, above.trunk);
+        material.bind_importance();
+    }
+    if (sampler == Sampler::combined) {
+        const MapPoints& points = light.points(lookup, seed);
+        bind_texture(gl, 10, points.texture);
+        bind_uniforms(gl, 0, points.clusters);
+        material.bind_importance();
+    }
 }
 
 }  // namespace
@@ -45,10 +77,6 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
            const Shading& target, const Drawn& drawn) {
     const gl::Functions& gl = device.gl();
     uint64_t done = 0;
-    const LightLayers* layers =
-        settings.filtered() ? &scene.light->layers(settings.environment_lookup(), layers_for(settings)) : nullptr;
-    const MapPoints* points =
-        settings.sampler() == Sampler::combined ? &scene.light->points(settings.environment_lookup(), seed) : nullptr;
     for (const ShadingList::Part& part : list.parts) {
         const Material& material = *slots.materials[part.slot];
         const gl::Program& program = device.compute("shade", definitions(material, settings));
@@ -62,20 +90,13 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         bind_texture(gl, 6, gbuffer.normal);
         bind_texture(gl, 7, target.decision);
         bind_texture(gl, 8, sequence.texture);
-        if (points != nullptr) {
-            bind_texture(gl, 10, points->texture);
-            bind_uniforms(gl, 0, points->clusters);
-            material.bind_importance();
-        }
-        if (layers != nullptr) {
-            program.set("light_unit", float(layers->unit));
-            bind_texture(gl, 13, layers->texture);
-        }
+        bind_sampler(gl, *scene.light, material, settings, seed, program);
         program.use();
         bind_image(gl, 0, target.radiance, GL_RGBA32F);
         bind_image(gl, 1, target.sample_count, GL_R32UI);
         bind_image(gl, 2, target.spread, GL_RG32F);
         for (uint32_t round = 0; round < part.longer.size(); ++round) {
+            program.set("part", round);
             const uint32_t per_pixel = std::min(part_samples, *std::max_element(list.samples.begin(), list.samples.end()));
             const uint32_t pixels = uint32_t(std::max<uint64_t>(64, dispatch_samples / per_pixel));
             for (uint32_t first = 0; first < part.longer[round]; first += pixels) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "passes/environment_bandwidth.h"
-#include "passes/split_light.h"
+#include "passes/footprint_light.h"
 
 namespace lightband {
 
@@ -45,23 +45,44 @@ const MapPoints& Light::points(Lookup lookup, uint32_t seed) const {
     return points_;
 }
 
-std::string LightLayers::definitions(Kind kind) {
+std::string FootprintLight::definitions(Kind kind) {
     if (kind == Kind::whole) return "LIGHT_LAYERS 1\nLIGHT_FORMAT rgba32f";
-    return text("LIGHT_LAYERS ", split_count, "\nFIRST_CEILING ", first_ceiling, "\nLIGHT_FORMAT rgba16f");
+    return text("BELOW_CEILINGS\nLIGHT_LAYERS ", Ceilings::count, "\nFIRST_CEILING ", Ceilings::first, "\nLIGHT_FORMAT rgba16f");
 }
 
-const LightLayers& Light::layers(Lookup lookup, LightLayers::Kind kind) const {
+const FootprintLight& Light::footprints(Lookup lookup, FootprintLight::Kind kind) const {
     const auto key = std::pair(lookup, kind);
-    auto found = layers_.find(key);
-    if (found == layers_.end())
-        found = layers_.emplace(key, passes::split_light(*device_, texture_, map_.height, sampler_.total(), lookup, kind)).first;
+    auto found = footprints_.find(key);
+    if (found == footprints_.end())
+        found = footprints_.emplace(key, passes::footprint_light(*device_, texture_, map_.height, sampler_.total(), lookup, kind)).first;
+    return found->second;
+}
+
+const LightAbove& Light::above(Lookup lookup) const {
+    auto found = above_.find(lookup);
+    if (found == above_.end()) {
+        const LightTree tree = light_tree(map_, sampler_, lookup);
+        LightAbove above;
+        std::vector<float> trunk;
+        for (uint32_t i = 0; i < LightTree::trunk_count; ++i) {
+            const LightPart& part = tree.parts[size_t(i) * LightTree::heap + 1];
+            trunk.insert(trunk.end(), {part.direction[0], part.direction[1], part.direction[2], part.sine});
+            const LightPart::Flux& flux = part.flux[0];
+            trunk.insert(trunk.end(), {flux.rgb[0], flux.rgb[1], flux.rgb[2], flux.spread});
+        }
+        above.trunk = gl::Buffer(device_->gl(), trunk.size() * sizeof(float), trunk.data());
+        above.parts = gl::Buffer(device_->gl(), tree.parts.size() * sizeof(LightPart), tree.parts.data());
+        above.texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, above.parts);
+        found = above_.emplace(lookup, std::move(above)).first;
+    }
     return found->second;
 }
 
 size_t Light::device_bytes() const {
     size_t bytes = texture_.bytes() + points_.points.bytes() + points_.clusters.bytes();
     for (const auto& [rule, bandwidth] : bandwidths_) bytes += bandwidth.moments.bytes() + bandwidth.bandwidth.bytes();
-    for (const auto& [key, layers] : layers_) bytes += layers.texture.bytes();
+    for (const auto& [key, footprints] : footprints_) bytes += footprints.texture.bytes();
+    for (const auto& [lookup, above] : above_) bytes += above.trunk.bytes() + above.parts.bytes();
     return bytes;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bandwidth/wavelet.h"
 #include "gl/objects.h"
+#include "sampling/light_tree.h"
 #include "sampling/map_sampler.h"
 #include "scene/environment.h"
 
@@ -24,17 +25,20 @@ struct MapPoints {
     gl::Texture texture;          // over the points
 };
 
-// A map for lookups of footprints, on the octahedral square. split: in layers, each of which keeps of radiance L the part
-// T / (T + L), T = first_ceiling total 4^k, total being the integral of L over the sphere; what a layer lacks is left to the map's
-// sampler. whole: one layer that keeps all. Filled by passes/split_light.
-struct LightLayers {
-    enum class Kind { split, whole };
-    static constexpr uint32_t split_count = 8;
-    static constexpr double first_ceiling = 0.04;  // about half the mean radiance: 1 / (8 pi)
+// A map for lookups of footprints, on the octahedral square: whole, or what lies below each of the soft ceilings
+// (sampling/light_tree.h). Filled by passes/footprint_light.
+struct FootprintLight {
+    enum class Kind { whole, below_ceilings };
     double unit = 0;      // radiance of a value of 1: the map's mean
-    gl::Texture texture;  // array, mip-mapped
-
+    gl::Texture texture;  // array of a layer for each ceiling, mip-mapped; RGB and alpha weighted by solid angle
     static std::string definitions(Kind kind);
+};
+
+// What lies above them: LightTree on a device.
+struct LightAbove {
+    gl::Buffer trunk;     // two vec4 for each: its direction and sine, its flux and spread
+    gl::Buffer parts;     // LightPart
+    gl::Texture texture;  // over the parts
 };
 
 class Light {
@@ -49,7 +53,8 @@ public:
     const EnvironmentBandwidth& bandwidth(BandRule rule) const;
     // Drawn anew when lookup or seed change.
     const MapPoints& points(Lookup lookup, uint32_t seed) const;
-    const LightLayers& layers(Lookup lookup, LightLayers::Kind kind) const;
+    const FootprintLight& footprints(Lookup lookup, FootprintLight::Kind kind) const;
+    const LightAbove& above(Lookup lookup) const;
     size_t device_bytes() const;
 
 private:
@@ -60,7 +65,8 @@ private:
     mutable std::map<BandRule, EnvironmentBandwidth> bandwidths_;
     mutable MapPoints points_;
     mutable std::pair<Lookup, uint32_t> points_key_;
-    mutable std::map<std::pair<Lookup, LightLayers::Kind>, LightLayers> layers_;
+    mutable std::map<std::pair<Lookup, FootprintLight::Kind>, FootprintLight> footprints_;
+    mutable std::map<Lookup, LightAbove> above_;
 };
 
 }  // namespace lightband

@@ -1,4 +1,4 @@
-#include "passes/split_light.h"
+#include "passes/footprint_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,31 +15,32 @@ constexpr uint32_t smallest_side = 16, largest_side = 256;
 
 }  // namespace
 
-LightLayers split_light(gl::Device& device, const gl::Texture& map, uint32_t map_height, double total, Lookup lookup,
-                        LightLayers::Kind kind) {
+FootprintLight footprint_light(gl::Device& device, const gl::Texture& map, uint32_t map_height, double total, Lookup lookup,
+                               FootprintLight::Kind kind) {
     const gl::Functions& gl = device.gl();
-    LightLayers result;
+    FootprintLight result;
     const uint32_t side = octahedral_side(map_height, smallest_side, largest_side);
     const uint32_t levels = uint32_t(std::log2(side)) + 1;
-    // Half floats hold what is cut, 3 2^13 times the mean at most; of the whole, a texel may be brighter.
-    const bool whole = kind == LightLayers::Kind::whole;
+    // Half floats hold what is cut, some 3 2^13 times the mean at most; of the whole, a texel may be brighter.
+    const bool whole = kind == FootprintLight::Kind::whole;
     const GLenum format = whole ? GL_RGBA32F : GL_RGBA16F;
-    result.texture = gl::Texture::image_array(gl, format, side, side, whole ? 1 : LightLayers::split_count, levels);
+    result.texture = gl::Texture::image_array(gl, format, side, side, whole ? 1 : Ceilings::count, levels);
     result.unit = total / (4 * pi);
 
-    const std::string definitions = LightLayers::definitions(kind);
-    const gl::Program& split = device.compute("split_light", definitions + (lookup == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : ""));
-    split.set("side", int32_t(side));
-    split.set("supersampling", octahedral_supersampling(map_height, side));
+    const std::string definitions = FootprintLight::definitions(kind);
+    const gl::Program& resample =
+        device.compute("footprint_light", definitions + (lookup == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : ""));
+    resample.set("side", int32_t(side));
+    resample.set("supersampling", octahedral_supersampling(map_height, side));
     // A map so dark that this leaves the range of float is black: the largest float times 0.
-    split.set("inverse_unit", float(std::min(1 / result.unit, double(std::numeric_limits<float>::max()))));
-    split.use();
+    resample.set("inverse_unit", float(std::min(1 / result.unit, double(std::numeric_limits<float>::max()))));
+    resample.use();
     bind_texture(gl, 0, map);
     bind_images(gl, 0, result.texture, format);
     dispatch_pixels(gl, side, side);
 
     for (uint32_t level = 1; level < levels; ++level) {
-        const gl::Program& average = device.compute("split_light_average", definitions);
+        const gl::Program& average = device.compute("footprint_average", definitions);
         average.set("level", int32_t(level - 1));
         average.use();
         bind_texture(gl, 0, result.texture);
@@ -49,7 +50,7 @@ LightLayers split_light(gl::Device& device, const gl::Texture& map, uint32_t map
     // The level nearest to a footprint, bilinearly: two levels cost twice and were not measured to err less.
     result.texture.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     result.texture.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    device.check("splitting an environment by radiance");
+    device.check("preparing an environment for lookups of footprints");
     return result;
 }
 

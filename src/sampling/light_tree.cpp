@@ -1,0 +1,169 @@
+#include "sampling/light_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace lightband {
+namespace {
+
+// Parts are not told apart below this size: blocks of texels, 0.7 degrees wide, each of which keeps its own centre.
+constexpr uint32_t most_blocks_around = 512;
+
+// Light of a block of texels: sums over it.
+struct Block {
+    Vec3 flux[Ceilings::count] = {};
+    Vec3 moment{0};     // of directions, weighed by the mean of RGB flux above the first ceiling
+    double weight = 0;  // that mean
+    Vec3 direction() const { return moment / weight; }
+};
+
+struct Texel {
+    double rgb[3], density;
+};
+
+// One row of the map, interpolated between texel rows where lookup is linear. y: in texels; .5 is a row's middle.
+std::vector<Texel> row_at(const RgbImage& map, const MapSampler& sampler, Lookup lookup, double y) {
+    const double below = std::floor(y - 0.5);
+    const auto held = [&](double row) { return uint32_t(std::clamp(row, 0.0, map.height - 1.0)); };
+    const uint32_t first = lookup == Lookup::linear ? held(below) : uint32_t(y), second = lookup == Lookup::linear ? held(below + 1) : first;
+    const double f = y - 0.5 - below;
+    std::vector<Texel> row(map.width);
+    for (uint32_t x = 0; x < map.width; ++x) {
+        for (int c = 0; c < 3; ++c) row[x].rgb[c] = (1 - f) * map.texel(x, first)[c] + f * map.texel(x, second)[c];
+        row[x].density = (1 - f) * sampler.texel_pdf(x, first) + f * sampler.texel_pdf(x, second);
+    }
+    return row;
+}
+
+// Lookups at the middles of half texels (of texels, where lookup is nearest) integrate what is linear between them exactly.
+std::vector<Block> blocks_of(const RgbImage& map, const MapSampler& sampler, Lookup lookup) {
+    const uint32_t parts = lookup == Lookup::linear ? 2 : 1, columns = map.width * parts, rows = map.height * parts;
+    const uint32_t side = std::max(1u, (map.width + most_blocks_around - 1) / most_blocks_around);
+    const uint32_t around = (map.width + side - 1) / side, down = (map.height + side - 1) / side;
+    std::vector<Block> blocks(size_t(around) * down);
+    std::vector<Vec2> longitudes(columns);
+    for (uint32_t i = 0; i < columns; ++i) {
+        const double longitude = (0.5 - (i + 0.5) / columns) * 2 * pi;
+        longitudes[i] = Vec2(std::sin(longitude), std::cos(longitude));
+    }
+    for (uint32_t j = 0; j < rows; ++j) {
+        const double y = (j + 0.5) / parts, polar = pi * y / map.height;
+        const double solid_angle = 2 * pi / columns * (std::cos(pi * j / rows) - std::cos(pi * (j + 1.0) / rows));
+        const std::vector<Texel> row = row_at(map, sampler, lookup, y);
+        for (uint32_t i = 0; i < columns; ++i) {
+            // Half texels lie a quarter of the way from one texel's middle to the next.
+            const uint32_t own = i / parts, next = i % 2 != 0 ? (own + 1) % map.width : (own + map.width - 1) % map.width;
+            const double f = parts == 2 ? 0.25 : 0;
+            const double density = (1 - f) * row[own].density + f * row[next].density;
+            Vec3 whole;
+            for (int c = 0; c < 3; ++c) whole[c] = solid_angle * ((1 - f) * row[own].rgb[c] + f * row[next].rgb[c]);
+            const double weight = Ceilings::part_above(0, density) * (whole.x + whole.y + whole.z) / 3;
+            Block& block = blocks[size_t(j / parts / side) * around + own / side];
+            for (uint32_t layer = 0; layer < Ceilings::count; ++layer) block.flux[layer] += Ceilings::part_above(layer, density) * whole;
+            block.weight += weight;
+            block.moment += weight * Vec3(std::sin(polar) * longitudes[i].x, std::cos(polar), std::sin(polar) * longitudes[i].y);
+        }
+    }
+    blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const Block& block) { return !(block.weight > 0); }), blocks.end());
+    return blocks;
+}
+
+// A run of blocks, and what their directions have in common.
+struct Run {
+    Block *first = nullptr, *last = nullptr;
+    Vec3 mean{0};
+    double weight = 0;
+    Vec3 variance{0};  // of directions, along each axis
+    double total_variance() const { return variance.x + variance.y + variance.z; }
+};
+
+Run run_of(Block* first, Block* last) {
+    Run run{first, last};
+    for (const Block* block = first; block != last; ++block) {
+        run.mean += block->moment;
+        run.weight += block->weight;
+    }
+    if (!(run.weight > 0)) return run;
+    run.mean /= run.weight;
+    for (const Block* block = first; block != last; ++block) {
+        const Vec3 off = block->direction() - run.mean;
+        run.variance += block->weight / run.weight * off * off;
+    }
+    return run;
+}
+
+// Two runs on either side of the mean along the axis on which the light spreads most; false where it has one place only.
+bool halve(const Run& whole, Run* low, Run* high) {
+    if (whole.last - whole.first < 2) return false;
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (whole.variance[i] > whole.variance[axis]) axis = i;
+    const double mean = whole.mean[axis];
+    Block* middle = std::partition(whole.first, whole.last, [=](const Block& block) { return block.direction()[axis] < mean; });
+    if (middle == whole.first || middle == whole.last) return false;
+    *low = run_of(whole.first, middle);
+    *high = run_of(middle, whole.last);
+    return true;
+}
+
+LightPart part_of(const Run& run) {
+    LightPart part{{0, 1, 0}, 1, {}};
+    if (!(run.weight > 0)) return part;
+    const double length = glm::length(run.mean);
+    const Vec3 middle = length > 0 ? run.mean / length : Vec3(0, 1, 0);
+    double cosine = 1;
+    Vec3 flux[Ceilings::count] = {};
+    for (const Block* block = run.first; block != run.last; ++block) {
+        cosine = std::min(cosine, glm::dot(middle, glm::normalize(block->direction())));
+        for (uint32_t layer = 0; layer < Ceilings::count; ++layer) flux[layer] += block->flux[layer];
+    }
+    for (int c = 0; c < 3; ++c) part.direction[c] = float(middle[c]);
+    part.sine = float(cosine > 0 ? std::sqrt(std::max(0.0, 1 - cosine * cosine)) : 1);
+    for (uint32_t layer = 0; layer < Ceilings::count; ++layer) {
+        const Vec3& own = flux[layer];
+        part.flux[layer] = {{float(own.x), float(own.y), float(own.z)}, float((own.x + own.y + own.z) / 3 * run.total_variance())};
+    }
+    return part;
+}
+
+void fill_heap(const Run& run, uint32_t place, LightPart* heap) {
+    heap[place] = part_of(run);
+    if (2 * place >= LightTree::heap) return;
+    Run low = run, high;  // where the light has one place, the second half is empty
+    halve(run, &low, &high);
+    fill_heap(low, 2 * place, heap);
+    fill_heap(high, 2 * place + 1, heap);
+}
+
+}  // namespace
+
+LightTree light_tree(const RgbImage& map, const MapSampler& sampler, Lookup lookup) {
+    std::vector<Block> blocks = blocks_of(map, sampler, lookup);
+    // The run that spreads most is halved first; the root keeps dim but wide parts from being left for last.
+    const auto urgency = [](const Run& run) { return std::sqrt(run.weight) * run.total_variance(); };
+    const auto less_urgent = [&](const Run& a, const Run& b) { return urgency(a) < urgency(b); };
+    std::priority_queue<Run, std::vector<Run>, decltype(less_urgent)> queue(less_urgent);
+    queue.push(run_of(blocks.data(), blocks.data() + blocks.size()));
+    std::vector<Run> trunk;
+    while (!queue.empty() && queue.size() + trunk.size() < LightTree::trunk_count) {
+        const Run run = queue.top();
+        queue.pop();
+        Run low, high;
+        if (halve(run, &low, &high)) {
+            queue.push(low);
+            queue.push(high);
+        } else {
+            trunk.push_back(run);
+        }
+    }
+    for (; !queue.empty(); queue.pop()) trunk.push_back(queue.top());
+    trunk.resize(LightTree::trunk_count);
+
+    LightTree tree;
+    tree.parts.resize(size_t(LightTree::trunk_count) * LightTree::heap);
+    for (size_t i = 0; i < trunk.size(); ++i) fill_heap(trunk[i], 1, &tree.parts[i * LightTree::heap]);
+    return tree;
+}
+
+}  // namespace lightband

@@ -1,0 +1,48 @@
+// The light of a map above a soft ceiling, as a tree of compact parts: what a pixel sums over a cut through (Walter et al. 2005,
+// "Lightcuts", of one distant map). What is below the ceiling is left to the lobe's samples.
+#pragma once
+
+#include <vector>
+
+#include "base/image.h"
+#include "sampling/map_sampler.h"
+
+namespace lightband {
+
+// Soft ceilings: of radiance L, L T / (L + T) lies below the ceiling T, the rest above it. A pixel takes the ceiling that suits its
+// lobe's density in a direction, from the first, half the map's mean, in steps of a factor 4; beyond the last, nothing lies above.
+// The density with which the map is sampled stands for its radiance: 4 pi times it is L over the mean.
+struct Ceilings {
+    static constexpr uint32_t count = 8;
+    static constexpr double first = 0.5;  // of the map's mean radiance
+    static double at(uint32_t layer) { return first * double(1u << 2 * layer); }
+    static double part_above(uint32_t layer, double map_density) {
+        const double radiance = 4 * pi * map_density;
+        return radiance / (radiance + at(layer));
+    }
+};
+
+// A part of the sphere whose light above the ceilings counts as if it all came from its centre. vec4s in shaders.
+struct LightPart {
+    float direction[3];  // unit: the mean over its light
+    float sine;          // of the half angle of the cone around it that holds the whole part; 1: a hemisphere or more
+    struct Flux {
+        float rgb[3];    // the integral of its radiance above the ceiling
+        float spread;    // flux (mean of RGB) times the variance of the part's directions
+    } flux[Ceilings::count];
+};
+
+struct LightTree {
+    static constexpr uint32_t trunk_count = 64;  // parts that every cut has, or more parts in their place
+    static constexpr uint32_t depth = 6;         // how often one of them can be halved
+    static constexpr uint32_t heap = 2u << depth;
+
+    // Of each part of the trunk a heap: its parts after d halvings are those from place 2^d to 2^(d + 1); place 0 is unused. The
+    // last ones are empty where the light has fewer places.
+    std::vector<LightPart> parts;  // trunk_count * heap
+};
+
+// Linear lookup lights between texels as a shader does.
+LightTree light_tree(const RgbImage& map, const MapSampler& sampler, Lookup lookup);
+
+}  // namespace lightband
