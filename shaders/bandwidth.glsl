@@ -24,7 +24,7 @@ const float largest_float = 3.4028234e38;
 
 // Of the samples, one in lobe_share is the lobe's. map_variance: of the map's, in parts of the square of what they add up to.
 #if defined(SAMPLER_CUT)
-const float lobe_share = 2.0, map_variance = 0.02;
+const float lobe_share = 2.0, map_variance = 0.3;
 #elif defined(SAMPLER_COMBINED)
 const float lobe_share = 2.0, map_variance = 0.1;
 #else

@@ -69,6 +69,14 @@ bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     return abs(between - here) <= tolerance * (here + dark_part * mean_radiance);
 }
 
+// Footprints leave little of a variance, the less the larger it is: of a cut, error was least between 0 and 1/4
+// (docs/decisions/0009).
+#if defined(SAMPLER_CUT)
+const float variance_power = 0.25;
+#else
+const float variance_power = 0.5;
+#endif
+
 // Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
 // sqrt(area * variance), the area being that which the pixel is interpolated over. Constant variance (section 2.4):
 // N proportional to the variance.
@@ -77,7 +85,7 @@ int share(float variance, int level) {
 #if defined(ALLOCATION_CONSTANT_VARIANCE)
     float octave = log2(variance);
 #else
-    float octave = 0.5 * log2(variance) + float(level);
+    float octave = variance_power * log2(variance) + float(level);
 #endif
     return clamp(int(round(octave)) + BINS / 2, 0, BINS - 1);
 }
@@ -107,7 +115,7 @@ void main() {
     float variance;
     around(at, level, least, variance);
     if (former && surprise > 0.0) variance = max(variance, surprise * measured_variance(at));
-    bool chosen = hash(uint(at.y) << 16 | uint(at.x) ^ hash(seed)) < witnesses;
+    bool chosen = hash((uint(at.y) << 16 | uint(at.x)) ^ hash(seed)) < witnesses;
     bool interpolate = level < coarsest_level && least > level && (chosen || !former);
     if (interpolate) interpolate = has_sound_parents(at, level, float(own));
     if (interpolate && !chosen)

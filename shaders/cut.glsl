@@ -6,10 +6,13 @@ layout(binding = 10) uniform samplerBuffer light_parts;
 const int part_size = 1 + LIGHT_LAYERS;
 layout(std140, binding = 0) uniform Trunk { vec4 trunk[2 * TRUNK_PARTS]; };
 
-// RGB; size: the parts that the cut is to have, about.
-vec3 light_above(Pixel pixel, float size) {
-    // The error of a part that is halved d times falls as 2^-d; in proportion to the square root of what it would be, all errors
-    // together are least.
+// A part is halved further where its own error by the formula above is so many times what the cut was made for. Where the horizon cuts
+// it, it may be brighter than at its centre, so many times.
+const float surprising = 2.0, horizon_doubt = 8.0;
+
+// RGB; size: the parts that the cut is to have, about. coarser: the luminance of a cut of half as many.
+vec3 light_above(Pixel pixel, float size, out float coarser) {
+    // Halved d times, a part errs 2^-d times as much; errors are least together where d follows the square root of what they are.
     float wishes[TRUNK_PARTS], sum = 0.0;
     uint seen[TRUNK_PARTS], seen_count = 0u;
     for (int k = 0; k < TRUNK_PARTS; ++k) {
@@ -24,23 +27,47 @@ vec3 light_above(Pixel pixel, float size) {
     }
     float scale = sum > 0.0 ? size / sum : 0.0;
     vec3 light = vec3(0);
-    uint k = 0u, place = 0u, end = 0u;
+    float usual = importance_albedo(pixel.view) / (2.0 * pi);  // the mean of the lobe over its hemisphere
+    // One loop over all parts of both cuts, so that neighbours run equally long. place, depth: of a part in its heap; wanted: the
+    // depth of the cut there; start: that of the coarser cut.
+    uint k = 0u, heap = 0u, wanted = 0u, start = 0u, depth = 0u, place = 2u;
+    coarser = 0.0;
+    bool halved = false;
     while (true) {
-        if (place == end) {
+        if (place == 2u << start && depth == start) {
             if (k == seen_count) break;
-            uint halvings = uint(clamp(round(log2(max(scale * wishes[k], 1.0))), 0.0, TREE_DEPTH));
-            place = seen[k++] * TREE_HEAP + (1u << halvings);
-            end = place + (1u << halvings);
+            wanted = uint(clamp(round(log2(max(scale * wishes[k], 1.0))), 0.0, float(TREE_DEPTH)));
+            start = depth = max(wanted, 1u) - 1u;
+            heap = seen[k++] * TREE_HEAP;
+            place = 1u << start;
         }
-        int index = part_size * int(place);
-        vec3 wi = texelFetch(light_parts, index).xyz * pixel.frame;
+        int index = part_size * int(heap + place);
+        vec4 part = texelFetch(light_parts, index);
+        vec3 wi = part.xyz * pixel.frame, value = vec3(0);
+        int layer = 0;
         if (wi.z > 0.0) {
             vec2 density;
-            vec3 value = evaluate_lobe(pixel.wo, pixel.view, wi, density);
-            int layer = light_layer(density);
-            if (layer < LIGHT_LAYERS) light += value * texelFetch(light_parts, index + 1 + layer).rgb;
+            value = evaluate_lobe(pixel.wo, pixel.view, wi, density);
+            layer = light_layer(density);
         }
+        vec4 flux = layer < LIGHT_LAYERS ? texelFetch(light_parts, index + 1 + layer) : vec4(0);
+        float brightness = luminance(value);
+        if (abs(wi.z) < part.w) brightness = horizon_doubt * max(brightness, usual);
+        bool surprises = scale * sqrt(flux.w * brightness) > surprising;
+        // The coarser cut has the parts at which this one starts; of one that surprises, its halves.
+        if (depth == start) halved = surprises;
+        if (depth == start + uint(halved)) coarser += luminance(value * flux.rgb);
+        if (depth < wanted || depth < TREE_DEPTH && surprises) {
+            place *= 2u;
+            ++depth;
+            continue;
+        }
+        light += value * flux.rgb;
+        // The next part; after a second half, that after the whole.
         ++place;
+        uint up = min(uint(findLSB(place)), depth - start);
+        place >>= up;
+        depth -= up;
     }
     return light;
 }

@@ -34,11 +34,11 @@ uniform float light_unit;
 
 #if defined(BELOW_CEILINGS)
 
-// The ceiling that suits a lobe's density, where the balance heuristic weighs a sample of the lobe and MAP_WORTH of the map alike;
+// The ceiling that suits a lobe's density, where the balance heuristic weighs a sample of the lobe and CEILING_WORTH of the map alike;
 // LIGHT_LAYERS where none is that high. density: a fraction, see shaders/lobe.glsl; a table's mirror direction has infinite density.
 int light_layer(vec2 density) {
     const float smallest = 1e-37;  // of float's normal range, and a little
-    float relative = 4.0 * pi * density.x / max(density.y * (FIRST_CEILING * MAP_WORTH), smallest);
+    float relative = 4.0 * pi * density.x / max(density.y * (FIRST_CEILING * CEILING_WORTH), smallest);
     return int(clamp(round(0.5 * log2(max(relative, smallest))), 0.0, float(LIGHT_LAYERS)));
 }
 
@@ -48,12 +48,15 @@ int light_layer(vec2 density) { return 0; }
 
 #endif
 
+// Bilinear lookups widen a footprint by about so much: error was least at a half of its area (docs/decisions/0009).
+const float footprint_size = 0.5;
+
 // The mean over a sample's footprint, of which the whole lobe holds that many, of what a cut leaves it.
 vec3 light_for_lobe(vec3 direction, vec2 density, float footprints) {
     float reach = octahedral_reach(direction), side = float(textureSize(footprint_light, 0).x);
     int layer = light_layer(density);
     // Over a footprint, 1 / (footprints density) steradians; a texel covers 4 reach^3 / side^2.
-    float texels = side * side * density.y / (4.0 * footprints * reach * reach * reach);
+    float texels = footprint_size * side * side * density.y / (4.0 * footprints * reach * reach * reach);
     if (layer < LIGHT_LAYERS && texels > density.x) {
         vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels / density.x));
         return mean.rgb * (light_unit / mean.a);

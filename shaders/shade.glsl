@@ -51,6 +51,7 @@ vec3 middle_above(vec3 wi, float sine) { return wi.z < sine ? normalize(vec3(wi.
 #include "cut.glsl"
 #endif
 
+const float most_doubt = 0.5;  // that the coarser cut casts on the finer, in parts of what the pixel shows: it may have hit a peak
 const uint unfinished = 0x80000000u;
 
 // Sum over n samples of the lobe of their values (RGB) and of their squared luminances. footprints: parts of the lobe that its samples
@@ -127,16 +128,21 @@ void main() {
     }
     vec4 mean = sum / float(total);
     luminances /= vec2(max(each, uvec2(1)));
-    imageStore(spreads, at, vec4(total > 1u ? 0.5 * (luminances.x - luminances.y) : luminance(mean.rgb), 0, 0, 0));
+    float spread = total > 1u ? 0.5 * (luminances.x - luminances.y) : luminance(mean.rgb);
 #if defined(SAMPLER_CUT)
     if (total == wanted) {
         // Half the samples vary: so each of them all stands for twice their variance.
-        float l = luminance(mean.rgb), variance = 2.0 * max(mean.a - l * l, 0.0);
-        mean.rgb += light_above(pixel, 0.5 * float(wanted));
+        float l = luminance(mean.rgb), variance = 2.0 * max(mean.a - l * l, 0.0), coarser;
+        vec3 above = light_above(pixel, 0.5 * float(wanted), coarser);
+        // A cut errs about as much as it differs from one of half its size.
+        mean.rgb += above;
         l = luminance(mean.rgb);
-        mean.a = l * l + variance;
+        float difference = clamp(coarser - luminance(above), -most_doubt * l, most_doubt * l);
+        mean.a = l * l + variance + float(wanted) * difference * difference;
+        spread += difference;
     }
 #endif
+    imageStore(spreads, at, vec4(spread, 0, 0, 0));
     imageStore(radiances, at, mean);
     imageStore(sample_counts, at, uvec4(total < wanted ? total | unfinished : total));
 }

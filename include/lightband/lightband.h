@@ -309,16 +309,19 @@ typedef struct lb_frame_stats {
     double bandwidth_milliseconds; /* of it: everything beside shading and geometry (bandwidth, pyramids, lists, estimate) */
     double shading_milliseconds;   /* of it: the shading integral */
     double error;                  /* relative error of the frame, as the frame itself estimates it (docs/conventions.md):
-                                      root of the squares of the two below. The field "error" holds it pixel by pixel */
+                                      root of the squares of the three parts: noise,
+                                      interpolation and bias. The field "error" holds it pixel by pixel */
     double noise_error;            /* part of it that more samples would lessen */
     double interpolation_error;    /* part of it that finer levels would lessen */
     uint64_t capped_pixels;        /* pixels whose samples reached the setting "max_samples"; they may have deserved more */
     uint32_t rounds;               /* of shading: 1 where neither an error nor a time was asked for */
-    uint32_t reserved;             /* 0 */
+    uint32_t audited_pixels;       /* pixels that were also shaded without bias, to know it; 0: the sampler has none */
+    double bias_error;             /* part of error that is not by chance: what a biased sampler (setting "sampler") gets wrong
+                                      in the same way at every seed; more samples lessen it */
 } lb_frame_stats;
 
 #define LB_FRAME_STATS_INIT \
-    { sizeof(lb_frame_stats), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0 }
+    { sizeof(lb_frame_stats), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0, 0.0 }
 
 /* LB_ERROR_INVALID_STATE before the first successful render. */
 LB_API lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats);

@@ -19,20 +19,17 @@ constexpr double tolerance_share = 1.2, least_tolerance = 0.03, most_tolerance =
 
 // Share of interpolation in the squared error. Pixels shaded grow about as the scale, the square of interpolation's error falls
 // as its fourth power, that of noise as the samples: time is least where the former is some quarter of the whole.
-constexpr double interpolation_share = 0.3;
+constexpr double interpolation_share = 0.3, most_interpolation = 0.5;
 // Rounds aim below what was asked, by what the estimate may miss; a round that comes this near is the last.
 constexpr double aim = 0.88, good_enough = 0.96;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 1;
-// Of the variance predicted, rounds were seen to leave a fifth to one and a half, the less the more samples. The first draws what a
-// smaller part would ask, and to no less noise than that: samples drawn early are kept, samples drawn beyond need are lost.
-constexpr double expected_correction = 0.3, first_noise = 0.04;
 constexpr uint32_t most_rounds = 8;
 // A pixel whose samples vary so many times more than predicted, as predictions go in its frame, found a light that the pilots
 // did not: it gets samples by what was measured. Single pixels' variances are known to a factor of two or so.
 constexpr double unsurprising = 4;
 // Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
-constexpr double stratified_gain = 1.25;
+constexpr double stratified_gain = 1.2;
 // The scale grows with the squared error of interpolation over what is allowed. For a smooth picture the fourth root would do; near
 // edges, where most of it comes from, it falls more slowly. Steps below the least would not be worth a new classification.
 constexpr double growth_power = 0.35, least_growth = 1.1, most_growth = 4;
@@ -44,29 +41,40 @@ constexpr double prior_witnesses = 4;
 // And of no less than that other part: the noise of few samples is itself known badly, often far too high.
 constexpr double least_progress = 0.7, most_progress = 0.1;
 // Witnesses that tell, and the part of pixels that cost little.
-constexpr double telling_witnesses = 256, cheap_witnesses = 1.0 / 32;
+constexpr double telling_witnesses = 256, cheap_witnesses = 1.0 / 16;
 // Part of the time that the first of two rounds may take, and the least part for which another is worth its lists.
-constexpr double first_part = 0.3, worthwhile_part = 0.1;
-// A pixel costs as much as some 25 samples before its first one: so few are drawn even where no time is left.
+constexpr double first_part = 0.15, worthwhile_part = 0.1;
+// So few samples are drawn even where no time is left: a pixel costs more before its first one.
 constexpr double fewest_in_time = 6;
+// Levels are made coarser by this part at most, where time does not last for all pixels that they would shade.
+constexpr double least_part = 0.1;
+// Part of the shaded pixels that a round must draw for its pace to be learnt from.
+constexpr double telling_part = 0.25;
 // Of what a round spends beside shading, the part that comes after it.
 constexpr double after_shading = 0.6;
+
+// What noise must be planned for, by a model in which it falls as the samples, so that it becomes `part` of what it is.
+double reached_by_more(double noise, double part) { return noise * std::pow(part, 1 / stratified_gain); }
 
 double total(const Histogram& histogram) { return double(std::accumulate(histogram.begin(), histogram.end(), uint64_t(0))); }
 
 }  // namespace
 
-void Pace::learn(const RoundCost& cost) {
+void Pace::learn(const RoundCost& cost, bool first_round) {
     round_milliseconds = cost.other_milliseconds;
-    if (cost.shading_milliseconds > 0 && cost.samples > 0) samples_per_millisecond = double(cost.samples) / cost.shading_milliseconds;
+    if (!(cost.shading_milliseconds > 0) || cost.samples == 0) return;
+    const double seen = (double(cost.samples) + pixel_samples * double(cost.pixels)) / cost.shading_milliseconds;
+    // What later rounds do is known from the frames before, up to how fast the device is now.
+    samples_per_millisecond = first_round && of_first_round > 0 ? samples_per_millisecond * seen / of_first_round : seen;
+    if (first_round) of_first_round = seen;
 }
 
 Control::Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed)
-    : settings_(settings), forecast_(forecast), correction_(expected_correction), pace_(pace) {
+    : settings_(settings), forecast_(forecast), correction_(forecast.correction), pace_(pace) {
     // Half of the pixels at most, or small frames would not be interpolated.
     witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), cheap_witnesses, 0.5);
     const double goal = aim * settings.target_error();
-    noise_goal_ = (1 - interpolation_share) * std::pow(std::max(goal, first_noise), 2);
+    noise_goal_ = (1 - interpolation_share) * goal * goal;
     scales_.assign(tiles, float(first_scale(elapsed)));
 }
 
@@ -80,7 +88,7 @@ double Control::first_scale(double elapsed) {
     if (settings_.time_budget() > 0) {
         // A tenth of the time at least: where there is none left, the coarsest levels serve best.
         const double left = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.1 * settings_.time_budget());
-        samples = left * pace_.samples_per_millisecond / std::max(forecast_.covered, 1.0);
+        samples = std::max(left * pace_.samples_per_millisecond / std::max(forecast_.covered, 1.0) - Pace::pixel_samples, fewest_in_time);
     }
     const double noise = expected_noise_ = forecast_.relative_deviation / std::sqrt(samples);
     const double interpolation = settings_.time_budget() > 0 ? expected_interpolation : unmeasured_interpolation;
@@ -93,14 +101,32 @@ double Control::tolerance() const {
     return std::max(most_tolerance, expected_noise_);
 }
 
+// The frame's mean square where every pixel gets as many samples as were probed.
+double Control::probed_noise(const Histogram& histogram) const {
+    const Budget budget(budget_bins, Audit::probe_samples);
+    return std::max(correction_ * predicted_noise(histogram, budget, settings_.allocation()) / forecast_.covered, 1e-12);
+}
+
+bool Control::coarsen(const Histogram& histogram, double elapsed) {
+    if (settings_.time_budget() <= 0 || settings_.target_error() > 0 || settings_.bandwidth_scale() > 0 || round_ > 0) return false;
+    const double left = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0);
+    const double affordable = left * pace_.samples_per_millisecond / (Pace::pixel_samples + fewest_in_time);
+    const double part = affordable / std::max(total(histogram), 1.0);
+    if (part >= 1) return false;
+    // Pixels shaded grow about as the scale.
+    for (float& scale : scales_) scale *= float(std::max(part, least_part));
+    return true;
+}
+
 const Budget& Control::plan(const Histogram& histogram, double elapsed) {
     ++round_;
     histogram_ = histogram;
     const double pixels = std::max(total(histogram), 1.0);
     if (settings_.target_error() > 0) {
+        if (round_ == 1) noise_goal_ = reached_by_more(probed_noise(histogram), noise_goal_ / probed_noise(histogram));
         budget_ = plan_noise(histogram, noise_goal_ * forecast_.covered / correction_, settings_.max_samples(), settings_.allocation());
     } else if (settings_.time_budget() > 0) {
-        const double mean = (drawn_ + time_to_shade(elapsed) * pace_.samples_per_millisecond) / pixels;
+        const double mean = time_to_shade(elapsed) * pace_.samples_per_millisecond / pixels - Pace::pixel_samples;
         budget_ = plan_mean(histogram, std::max(mean, fewest_in_time), settings_.max_samples());
     } else if (settings_.method() == Method::reference) {
         budget_.assign(budget_bins, settings_.samples());
@@ -119,8 +145,8 @@ double Control::time_to_shade(double elapsed) const {
 }
 
 bool Control::out_of_time(const RoundCost& cost) {
-    drawn_ += double(cost.samples);
-    pace_.learn(cost);
+    // A round of few new pixels says little of others.
+    if (double(cost.pixels) >= telling_part * total(histogram_)) pace_.learn(cost, round_ == 1);
     if (settings_.time_budget() <= 0) return false;
     const double left = settings_.time_budget() - cost.elapsed_milliseconds - pace_.round_milliseconds;
     return left < std::max(worthwhile_part * settings_.time_budget(), pace_.round_milliseconds);
@@ -137,16 +163,10 @@ double seen_in(const ErrorEstimate::Tile& tile, double frame_mean, double doubt)
 
 }  // namespace
 
-// Scales each tile's bandwidth by what its witnesses saw. True: some scale has grown.
-bool Control::improve_levels(const ErrorEstimate& estimate) {
+// Scales each tile's bandwidth by what its witnesses saw, less as many standard errors as are doubted, so that the frame's mean square
+// becomes what is allowed. True: some scale has grown.
+bool Control::improve_levels(const ErrorEstimate& estimate, double allowed, double doubt) {
     if (settings_.bandwidth_scale() > 0) return false;
-    const double target = aim * settings_.target_error();
-    const double goal = target > 0 ? target * target : first_part * estimate.noise;  // what the rest of the time leaves
-    const double noise_allowed = (1 - interpolation_share) * goal;
-    // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again.
-    if (target > 0 && estimate.noise > trusted_noise * noise_allowed) return false;
-    // What the witnesses may have seen by chance is no reason to shade more, unless there is no noise left to blame.
-    const double doubt = estimate.noise > blameless_noise * noise_allowed ? 1 : 0;
     double witnesses = 0, sum = 0, interpolated = 0;
     for (const ErrorEstimate::Tile& tile : estimate.tiles) {
         witnesses += tile.witnesses;
@@ -158,7 +178,6 @@ bool Control::improve_levels(const ErrorEstimate& estimate) {
     std::vector<double> seen;
     for (const ErrorEstimate::Tile& tile : estimate.tiles) seen.push_back(seen_in(tile, frame_mean, doubt));
     // Tiles above a common error are brought down to it: to that which leaves the frame what is allowed.
-    const double allowed = std::max(interpolation_share * goal, goal - estimate.noise) * forecast_.covered;
     const auto left = [&](double most) {
         double all = 0;
         for (size_t i = 0; i < seen.size(); ++i) all += estimate.tiles[i].interpolated * std::min(seen[i], most);
@@ -167,7 +186,7 @@ bool Control::improve_levels(const ErrorEstimate& estimate) {
     double common = 0, too_much = 1;  // a witness is believed up to 1
     for (int i = 0; i < 40; ++i) {
         const double middle = 0.5 * (common + too_much);
-        (left(middle) <= allowed ? common : too_much) = middle;
+        (left(middle) <= allowed * forecast_.covered ? common : too_much) = middle;
     }
     bool grown = false;
     for (size_t i = 0; i < seen.size(); ++i) {
@@ -193,20 +212,33 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     if (target <= 0 && settings_.time_budget() <= 0) return false;
     if (late || round_ == most_rounds) return false;
     const double predicted = predicted_noise(histogram_, budget_, settings_.allocation());
-    if (predicted > 0) correction_ = std::max(estimate.noise * forecast_.covered / predicted, 1e-6);
+    if (predicted > 0) correction_ = std::max(estimate.shading() * forecast_.covered / predicted, 1e-6);
     surprise_ = estimate.stratification / (correction_ * unsurprising);
     if (target <= 0) {
-        improve_levels(estimate);
+        if (round_ > 1) return false;
+        improve_levels(estimate, interpolation_share * first_part * estimate.shading(), 1);  // of what the rest of the time will leave
         return true;
     }
-    const double careful = std::sqrt(estimate.noise + estimate.interpolation + caution * estimate.interpolation_deviation);
-    if (careful <= good_enough * target) return false;
+    const double careful = std::sqrt(estimate.shading() + estimate.interpolation +
+                                     caution * std::hypot(estimate.interpolation_deviation, estimate.bias_deviation));
+    if (careful <= good_enough * target || estimate.error() <= aim * target) return false;
     choose_witnesses(estimate);
-    const bool grown = improve_levels(estimate);
-    const double goal = aim * target, kept = std::min(estimate.interpolation, interpolation_share * goal * goal);
+    const double goal = aim * aim * target * target, shading_allowed = (1 - interpolation_share) * goal;
+    // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again. What they may have seen
+    // by chance is no reason to shade more, unless there is no noise left to blame.
+    bool grown = false;
+    if (estimate.shading() <= trusted_noise * shading_allowed)
+        grown = improve_levels(estimate, std::clamp(goal - estimate.shading(), interpolation_share * goal, most_interpolation * goal),
+                               estimate.shading() > blameless_noise * shading_allowed ? 1 : 0);
+    if (!grown && estimate.shading() <= shading_allowed) {
+        // Neither is to blame: what is left is doubt.
+        if (estimate.error() <= good_enough * target) return false;
+        grown = improve_levels(estimate, interpolation_share * goal, 0);
+    }
+    const double kept = std::min(estimate.interpolation, interpolation_share * goal);
     // Stratified points gain more than independent ones from being more.
-    const double wanted = std::clamp((goal * goal - kept) / estimate.noise, most_progress, grown ? 1 : least_progress);
-    noise_goal_ = estimate.noise * std::pow(wanted, 1 / stratified_gain);
+    const double wanted = std::clamp((goal - kept) / estimate.shading(), most_progress, grown ? 1 : least_progress);
+    noise_goal_ = reached_by_more(estimate.shading(), wanted);
     const bool at_most = std::all_of(budget_.begin(), budget_.end(), [&](uint32_t n) { return n >= settings_.max_samples(); });
     return grown || !at_most;
 }

@@ -14,11 +14,12 @@ struct Forecast {
     double covered = 0;             // pixels
     double mean_radiance = 0;       // luminance
     double relative_deviation = 0;  // mean of one light sample's standard deviation over the pixel's radiance
+    double correction = 1;          // noise that samples leave over what is predicted, as far as was probed
 };
 
 // What a round cost.
 struct RoundCost {
-    uint64_t samples = 0;
+    uint64_t pixels = 0, samples = 0;  // that it drew
     double shading_milliseconds = 0;
     double other_milliseconds = 0;    // lists, interpolation, measurement
     double elapsed_milliseconds = 0;  // since the frame began
@@ -26,10 +27,13 @@ struct RoundCost {
 
 // How fast a device shades: learnt from round to round and from frame to frame.
 struct Pace {
-    double samples_per_millisecond = 5000;  // a guess, until a frame has measured it
+    // A pixel costs as much as so many samples before its first one: the odds of the map's clusters, or the trunk of a cut.
+    static constexpr double pixel_samples = 30;
+    double samples_per_millisecond = 5000;  // those included; a guess, until a frame has measured it
+    double of_first_round = 0;              // few samples cost otherwise than many; 0: none was measured
     double round_milliseconds = 0;          // of a round beside its shading
 
-    void learn(const RoundCost& cost);
+    void learn(const RoundCost& cost, bool first_round);
 };
 
 class Control {
@@ -45,16 +49,21 @@ public:
     double tolerance() const;
     // Factor that turns a pixel's measured variance into the predicted one that it deserves; 0 before a round has measured.
     double surprise() const { return surprise_; }
+    // What was learnt of the device.
+    const Pace& pace() const { return pace_; }
+    // Coarser levels, where the time that is left does not last for so many pixels; true: they have changed. Before the first round.
+    bool coarsen(const Histogram& histogram, double elapsed);
     // Samples of each bin in this round, those of former rounds included; elapsed: milliseconds since the frame began.
     const Budget& plan(const Histogram& histogram, double elapsed);
     // Whether another round is needed after what the last one gave.
     bool again(const ErrorEstimate& estimate, const RoundCost& cost);
 
 private:
-    bool improve_levels(const ErrorEstimate& estimate);
+    bool improve_levels(const ErrorEstimate& estimate, double allowed, double doubt);
     void choose_witnesses(const ErrorEstimate& estimate);
     bool out_of_time(const RoundCost& cost);
     double time_to_shade(double elapsed) const;
+    double probed_noise(const Histogram& histogram) const;
     double first_scale(double elapsed);
 
     const Settings& settings_;
@@ -68,7 +77,6 @@ private:
     double surprise_ = 0;
     double expected_noise_ = 0;  // of a frame that asks for no error
     Pace pace_;
-    double drawn_ = 0;        // samples
     uint32_t round_ = 0;
 };
 

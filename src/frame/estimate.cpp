@@ -32,6 +32,11 @@ constexpr double prior_pixels = 8;
 // and one of them would drown the others.
 constexpr double largest_square = 1;
 
+// What the spreads do not tell of a squared error, before any audit: nothing, give or take as much as they tell.
+constexpr double expected_bias_doubt = 1;
+// Nor may an audit say that there is less than this part of what they tell.
+constexpr double least_true = 0.3;
+
 // Squared errors of the witnesses of one slot.
 struct WitnessSums {
     double sum = 0, squares = 0;
@@ -50,9 +55,34 @@ double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
     return mean + dark_part * mean_luminance;
 }
 
+// Of a picture's two replicates and the audit's two, either of one against either of the other: the mean of the products of their
+// deviations has the noise of neither.
+void add_bias(const RoundPixels& pixels, const Audit& audit, ErrorEstimate* estimate) {
+    double sum = 0, squares = 0, count = 0;
+    for (size_t k = 0; k < audit.at.size(); ++k) {
+        const size_t i = audit.at[k];
+        const double scale = scale_of(pixels, i, estimate->mean_luminance);
+        if (!(scale > 0)) continue;
+        const double deviation = luminance_at(pixels, i) - audit.mean[k], own = pixels.spread[2 * i], other = audit.spread[k];
+        const double square =
+            std::clamp((deviation * deviation - own * own - other * other) / (scale * scale), -largest_square, largest_square);
+        sum += square;
+        squares += square * square;
+        ++count;
+    }
+    if (count == 0) return;
+    // What is expected before looking, and what is seen, each by the inverse square of its doubt.
+    const double seen = sum / count, seen_doubt = std::max((squares / count - seen * seen) / count, 0.0);
+    const double expected_doubt = std::pow(expected_bias_doubt * estimate->noise, 2);
+    if (!(seen_doubt + expected_doubt > 0)) return;
+    const double weight = expected_doubt / (seen_doubt + expected_doubt);
+    estimate->bias = std::max(weight * seen, (least_true - 1) * estimate->noise);
+    estimate->bias_deviation = std::sqrt(weight * seen_doubt);
+}
+
 }  // namespace
 
-double ErrorEstimate::error() const { return std::sqrt(noise + interpolation); }
+double ErrorEstimate::error() const { return std::sqrt(noise + interpolation + bias); }
 
 double variance_of_mean(const RoundPixels& pixels, size_t at) {
     const double square = pixels.radiance[4 * at + 3], mean = luminance_at(pixels, at);
@@ -61,7 +91,8 @@ double variance_of_mean(const RoundPixels& pixels, size_t at) {
     return n > 1 ? std::max(square - mean * mean, 0.0) / (n - 1) : mean * mean;
 }
 
-ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots) {
+ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots,
+                             const Audit& audit) {
     ErrorEstimate result;
     result.slots.resize(slots);
     result.mean_luminance = mean_luminance(pixels);
@@ -111,6 +142,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         result.interpolation_deviation =
             std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / covered);
     }
+    add_bias(pixels, audit, &result);
     return result;
 }
 
@@ -124,7 +156,7 @@ std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& 
         if (pixels.material[i] == 0) continue;
         const double scale = scale_of(pixels, i, estimate.mean_luminance);
         if (!(scale > 0)) continue;
-        double square = estimate.stratification * variance_of_mean(pixels, i) / (scale * scale);
+        double square = estimate.stratification * variance_of_mean(pixels, i) / (scale * scale) + estimate.bias;
         if (is_interpolated(pixels.decision[i])) {
             const uint32_t slot = slot_of[pixels.material[i] - 1u];
             const ErrorEstimate::Slot& own = estimate.slots[slot];

@@ -1,9 +1,11 @@
-// What a finished round says of its error: noise from the spread of two replicates, interpolation from witnesses.
+// What a finished round says of its error: noise from the spread of two replicates, interpolation from witnesses, bias from an audit.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "frame/audit.h"
 
 namespace lightband {
 
@@ -39,15 +41,17 @@ struct ErrorEstimate {
     double noise = 0;
     // Noise over what the samples' variance says of independent ones: stratified points err less.
     double stratification = 1;
-    double interpolation = 0, interpolation_deviation = 0;
+    double interpolation = 0, interpolation_deviation = 0;  // the second: standard error of the first
+    double bias = 0, bias_deviation = 0;                    // of the sampler; likewise
     std::vector<Slot> slots;
     std::vector<Tile> tiles;  // tiles_along(width) in a row
 
     double error() const;
+    double shading() const { return noise + bias; }  // what more samples lessen
 };
 
 // slot_of: BRDF slot of each instance, at its number.
-ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots);
+ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const Audit& audit);
 
 // The relative error to be expected of each pixel; 0 where nothing is seen. shape: how the squared error of interpolation is
 // distributed over a slot's interpolated pixels, up to a factor. The root mean square over the covered pixels is error().

@@ -21,6 +21,9 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
 // much as half a million samples or so.
 constexpr uint64_t worth_new_points = 1u << 23;
 
+// An audit draws its own directions of the map, the same for every frame, so that they are drawn once.
+constexpr uint32_t audit_seed = 0x61756469;
+
 }  // namespace
 
 Frame::Frame(gl::DevicePtr device, uint32_t width, uint32_t height)
@@ -45,7 +48,11 @@ struct Frame::Job {
     passes::Covered covered;
     passes::Counts counts;
     passes::ShadingList list;    // of the last round
-    uint64_t samples = 0;        // drawn so far
+    uint64_t samples = 0;        // of the picture as it is
+    std::vector<uint32_t> counts_before;  // samples of each pixel in the round before
+    RoundCost cost;              // of the last round
+    Audit audit;
+    double audited = 0;          // part of the pixels
     double done = 0, part = 0;   // of the progress: before this round, and the round's own
 
     void report(double fraction) const {
@@ -65,7 +72,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     const gl::Functions& gl = device_->gl();
     if (sequence_ == nullptr) sequence_ = std::make_unique<passes::SequenceTable>(gl);
     const Scene::Slots slots = scene.slots();
-    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots), {}, {}, {}};
+    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots), {}, {}, {}, {}};
     Result& next = *job.result;
     next.settings = settings;
     next.stats.width = width_;
@@ -78,7 +85,8 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     next.plan.finished("gbuffer", text(scene.instances().size(), " instances"), next.gbuffer.bytes(), pixels(), "pixels");
     job.covered = passes::covered(gl, next.gbuffer, width_, height_, settings.coarsest_level());
     next.plan.finished("covered", "list of the pixels that see a mesh", job.covered.entries.bytes(), pixels(), "pixels");
-    const Forecast forecast = predict(&job);
+    Forecast forecast = predict(&job);
+    audit(&job, &forecast);
     rounds(&job, forecast);
     if (settings.accumulate() > 1) accumulate(&job);
     if (settings.background()) {
@@ -115,6 +123,8 @@ void Frame::finish(Job* job) const {
     stats.error = next.estimate.error();
     stats.noise_error = std::sqrt(next.estimate.noise);
     stats.interpolation_error = std::sqrt(next.estimate.interpolation);
+    stats.audited_pixels = uint32_t(job->audit.at.size());
+    stats.bias_error = std::sqrt(std::max(next.estimate.bias, 0.0));
 }
 
 Forecast Frame::predict(Job* job) const {
@@ -132,21 +142,28 @@ Forecast Frame::predict(Job* job) const {
     return forecast;
 }
 
-void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
+// Which pixels are shaded at the scales that control has chosen.
+void Frame::decide(Job* job, const Control& control, const Forecast& forecast) const {
     Result& next = *job->result;
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
     if (prediction != nullptr) {
-        passes::pyramids(*device_, forecast, control->scales(), settings, next.gbuffer, width_, height_, *prediction);
-        const auto [least, most] = std::minmax_element(control->scales().begin(), control->scales().end());
+        passes::pyramids(*device_, forecast, control.scales(), settings, next.gbuffer, width_, height_, *prediction);
+        const auto [least, most] = std::minmax_element(control.scales().begin(), control.scales().end());
         next.plan.finished("pyramids",
                            text("least level and largest variance of each block, bandwidth times ", *least, " to ", *most),
                            prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
     }
     job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), settings,
-                                   control->witnesses(), forecast, control->tolerance(), control->surprise(), job->covered,
-                                   next.gbuffer, prediction, next.shading);
+                                   std::max(control.witnesses(), job->audited), forecast, control.tolerance(), control.surprise(),
+                                   job->covered, next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
+}
+
+void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
+    Result& next = *job->result;
+    decide(job, *control, forecast);
+    if (control->coarsen(job->counts.bins(), next.plan.total_milliseconds())) decide(job, *control, forecast);
     const Budget& budget = control->plan(job->counts.bins(), next.plan.total_milliseconds());
     job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, job->covered, next.gbuffer,
                                      next.shading);
@@ -173,11 +190,75 @@ void Frame::shade(Job* job, uint32_t seed) const {
 void Frame::measure(Job* job) const {
     Result& next = *job->result;
     const RoundPixels pixels = next.read_round();
-    next.estimate = estimate_error(pixels, next.slot_of, job->slots.materials.size());
+    next.estimate = estimate_error(pixels, next.slot_of, job->slots.materials.size(), job->audit);
     job->samples = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
+    // A pixel is drawn anew or left as it was.
+    job->counts_before.resize(pixels.sample_count.size());
+    job->cost.pixels = job->cost.samples = 0;
+    for (size_t i = 0; i < pixels.sample_count.size(); ++i) {
+        if (pixels.sample_count[i] == job->counts_before[i]) continue;
+        ++job->cost.pixels;
+        job->cost.samples += pixels.sample_count[i];
+    }
+    job->counts_before = pixels.sample_count;
     next.plan.count("shade", job->samples);
     next.plan.finished("estimate", text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
-                                        std::sqrt(next.estimate.interpolation)), 0, this->pixels(), "pixels");
+                                        std::sqrt(next.estimate.interpolation), ", by bias ", std::sqrt(std::max(next.estimate.bias, 0.0))), 0, this->pixels(), "pixels");
+}
+
+// Shades some pixels without bias, and by the frame's own sampler, into targets that the rounds will write anew.
+void Frame::audit(Job* job, Forecast* forecast) const {
+    Result& next = *job->result;
+    const Audit::Effort effort = Audit::effort(settings, forecast->covered, pace_.samples_per_millisecond);
+    if (effort.part == 0) return;
+    std::vector<uint8_t> material(pixels());
+    next.gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
+    std::vector<std::vector<uint32_t>> pixels_of_slot(job->slots.materials.size());
+    std::vector<uint32_t> drawn;
+    for (uint32_t y = 0; y < height_; ++y)
+        for (uint32_t x = 0; x < width_; ++x) {
+            const uint32_t at = y * width_ + x;
+            if (material[at] == 0 || !is_drawn(x, y, settings.seed(), effort.part)) continue;
+            pixels_of_slot[next.slot_of[material[at] - 1u]].push_back(y << 16 | x);
+            drawn.push_back(at);
+        }
+    std::vector<float> radiance(pixels() * 4), spread(pixels() * 2);
+    const auto shade_drawn = [&](const Settings& own, uint32_t samples, uint32_t seed) {
+        next.shading.clear(device_->gl());
+        next.shading.decide_all(device_->gl());
+        const passes::ShadingList list = passes::even_list(*device_, pixels_of_slot, samples);
+        passes::shade(*device_, job->scene, job->slots, own, seed, *sequence_, list, true, next.gbuffer, next.shading,
+                      [&](uint64_t) { job->report(0); });
+        next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
+        next.shading.spread.read(0, GL_RG, GL_FLOAT, spread.size() * sizeof(float), spread.data());
+    };
+    if (effort.probe > 0) {
+        shade_drawn(settings, effort.probe, settings.seed());
+        std::vector<float> prediction(pixels() * 2);
+        next.prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
+        double measured = 0, predicted = 0;
+        for (const uint32_t at : drawn) {
+            const double scale = prediction[2 * at + 1] + dark_part * forecast->mean_radiance;
+            if (!(scale > 0)) continue;
+            measured += std::min(std::pow(spread[2 * at] / scale, 2), 1.0);
+            predicted += prediction[2 * at] / (scale * scale) / effort.probe;
+        }
+        if (predicted > 0 && measured > 0) forecast->correction = measured / predicted;
+        next.plan.finished("probe", text(drawn.size(), " pixels, to know how much they vary"), 0, drawn.size() * effort.probe, "samples");
+    }
+    if (effort.samples > 0) {
+        Settings unbiased = settings;
+        unbiased.set_choice("sampler", "combined");
+        shade_drawn(unbiased, effort.samples, audit_seed);
+        for (const uint32_t at : drawn) {
+            job->audit.at.push_back(at);
+            job->audit.mean.push_back(float(luminance(Vec3(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]))));
+            job->audit.spread.push_back(spread[2 * at]);
+        }
+        job->audited = effort.part;
+        next.plan.finished("audit", text(drawn.size(), " pixels without bias, to know the sampler's"), 0, drawn.size() * effort.samples,
+                           "samples");
+    }
 }
 
 void Frame::rounds(Job* job, const Forecast& forecast) {
@@ -187,24 +268,22 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
                     next.plan.total_milliseconds());
     const bool one = settings.target_error() <= 0 && settings.time_budget() <= 0;
     uint32_t points_seed = settings.seed();
-    RoundCost cost;
+    RoundCost& cost = job->cost;
     do {
         ++next.stats.rounds;
         // How many rounds will come is not known: each takes half of what is left.
         job->part = (1 - job->done) * (one ? 1.0 / settings.accumulate() : 0.5);
-        const uint64_t drawn = job->samples;
         const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
         list(job, &control, forecast);
         if (job->list.total_samples >= job->samples + worth_new_points) points_seed = settings.seed() + next.stats.rounds - 1;
         shade(job, points_seed);
         measure(job);
-        cost.samples = job->samples - drawn;
         cost.elapsed_milliseconds = next.plan.total_milliseconds();
         cost.shading_milliseconds = next.plan.milliseconds_of({"shade"}) - shaded;
         cost.other_milliseconds = cost.elapsed_milliseconds - begun - cost.shading_milliseconds;
         job->done += job->part;
     } while (control.again(next.estimate, cost));
-    pace_.learn(cost);
+    pace_ = control.pace();
 }
 
 // Further frames of other seeds on the same levels; the mean of all.

@@ -48,7 +48,9 @@ private:
     struct Job;  // a render call on its way
     const Result& result() const;
     Forecast predict(Job* job) const;
+    void audit(Job* job, Forecast* forecast) const;
     void rounds(Job* job, const Forecast& forecast);
+    void decide(Job* job, const Control& control, const Forecast& forecast) const;
     void list(Job* job, Control* control, const Forecast& forecast) const;
     void shade(Job* job, uint32_t seed) const;
     void measure(Job* job) const;

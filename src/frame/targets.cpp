@@ -1,5 +1,7 @@
 #include "frame/targets.h"
 
+#include "frame/decision.h"
+
 namespace lightband {
 
 using gl::Texture;
@@ -33,6 +35,10 @@ void Shading::clear(const gl::Functions& gl) const {
     gl.ClearTexImage(radiance.name(), 0, GL_RGBA, GL_FLOAT, zeros);
     gl.ClearTexImage(spread.name(), 0, GL_RG, GL_FLOAT, zeros);
     gl.ClearTexImage(sample_count.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+}
+
+void Shading::decide_all(const gl::Functions& gl) const {
+    gl.ClearTexImage(decision.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &first_bin);
 }
 
 }  // namespace lightband

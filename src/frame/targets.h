@@ -39,6 +39,7 @@ struct Shading {
 
     Shading(const gl::Functions& gl, uint32_t width, uint32_t height);
     void clear(const gl::Functions& gl) const;  // nothing shaded yet
+    void decide_all(const gl::Functions& gl) const;  // every pixel to be shaded, with the samples of the first bin
     size_t bytes() const { return radiance.bytes() + spread.bytes() + sample_count.bytes() + decision.bytes(); }
 };
 

@@ -13,6 +13,7 @@ std::string definitions(const Settings& settings, const Prediction* prediction) 
     std::string result = text("BINS ", budget_bins);
     if (prediction == nullptr) return result + "\nSHADE_ALL";
     result += text("\nPYRAMID_LEVELS ", prediction->rows.size());
+    if (settings.sampler() == Sampler::cut) result += "\nSAMPLER_CUT";
     if (settings.allocation() == Allocation::constant_variance) result += "\nALLOCATION_CONSTANT_VARIANCE";
     return result;
 }
@@ -108,6 +109,25 @@ ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Cou
     bind_storage(gl, 1, list.entries);
     bind_image(gl, 0, target.sample_count, GL_R32UI);
     dispatch_covered(gl, program, covered, covered.all);
+    return list;
+}
+
+ShadingList even_list(gl::Device& device, const std::vector<std::vector<uint32_t>>& pixels_of_slot, uint32_t samples) {
+    ShadingList list;
+    list.samples.assign(budget_bins, samples);
+    std::vector<uint32_t> entries;
+    for (uint32_t slot = 0; slot < pixels_of_slot.size(); ++slot) {
+        const std::vector<uint32_t>& own = pixels_of_slot[slot];
+        if (own.empty()) continue;
+        const uint32_t rounds = (samples + part_samples - 1) / part_samples;
+        list.parts.push_back({slot, uint32_t(entries.size()), uint32_t(own.size()), std::vector<uint32_t>(rounds, uint32_t(own.size()))});
+        entries.insert(entries.end(), own.begin(), own.end());
+    }
+    list.pixels = entries.size();
+    list.total_samples = list.pixels * samples;
+    if (entries.empty()) entries.push_back(0);
+    list.entries = gl::Buffer(device.gl(), entries.size() * sizeof(uint32_t), entries.data());
+    list.entries_texture = gl::Texture::of_buffer(device.gl(), GL_R32UI, list.entries);
     return list;
 }
 

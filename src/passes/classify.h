@@ -40,6 +40,9 @@ struct ShadingList {
 // loops, which the shading loop has not more than eight of); and a block of the (0,2)-sequence has this length.
 constexpr uint32_t part_samples = 4096;
 
+// Pixels (y << 16 | x) of each slot, all with the same number of samples; it needs no decisions.
+ShadingList even_list(gl::Device& device, const std::vector<std::vector<uint32_t>>& pixels_of_slot, uint32_t samples);
+
 ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget,
                          const Covered& covered, const GBuffer& gbuffer, const Shading& target);
 

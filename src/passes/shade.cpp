@@ -17,8 +17,8 @@ std::string definitions(const Material& material, const Settings& settings) {
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
     switch (settings.sampler()) {
         case Sampler::cut:
-            result += text("\nSAMPLER_CUT\nFILTERED\nTRUNK_PARTS ", LightTree::trunk_count, "\nTREE_DEPTH ", LightTree::depth, "\nTREE_HEAP ",
-                           LightTree::heap, "u\nMAP_WORTH ", map_sample_worth, "\n",
+            result += text("\nSAMPLER_CUT\nFILTERED\nTRUNK_PARTS ", LightTree::trunk_count, "\nTREE_DEPTH ", LightTree::depth, "u\nTREE_HEAP ",
+                           LightTree::heap, "u\nCEILING_WORTH ", Ceilings::worth, "\n",
                            FootprintLight::definitions(FootprintLight::Kind::below_ceilings));
             break;
         case Sampler::combined:
@@ -81,7 +81,7 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         const Material& material = *slots.materials[part.slot];
         const gl::Program& program = device.compute("shade", definitions(material, settings));
         program.set("seed", seed);
-        program.set("spared", first_round ? 31u : 4u);
+        program.set("spared", first_round ? 31u : 2u);
         program.set_array("samples", list.samples.data(), int32_t(budget_bins));
         material.bind(program);
         bind_texture(gl, 0, scene.light->texture());

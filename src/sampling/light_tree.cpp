@@ -15,6 +15,8 @@ struct Block {
     Vec3 flux[Ceilings::count] = {};
     Vec3 moment{0};     // of directions, weighed by the mean of RGB flux above the first ceiling
     double weight = 0;  // that mean
+    // From its middle to its edges, along a meridian and along a parallel.
+    Vec3 down{0}, along{0};
     Vec3 direction() const { return moment / weight; }
 };
 
@@ -65,6 +67,14 @@ std::vector<Block> blocks_of(const RgbImage& map, const MapSampler& sampler, Loo
             block.moment += weight * Vec3(std::sin(polar) * longitudes[i].x, std::cos(polar), std::sin(polar) * longitudes[i].y);
         }
     }
+    for (uint32_t j = 0; j < down; ++j)
+        for (uint32_t i = 0; i < around; ++i) {
+            Block& block = blocks[size_t(j) * around + i];
+            const double polar = pi * (j + 0.5) * side / map.height, longitude = (0.5 - (i + 0.5) * side / map.width) * 2 * pi;
+            block.down = pi * side / map.height / 2 *
+                         Vec3(std::cos(polar) * std::sin(longitude), -std::sin(polar), std::cos(polar) * std::cos(longitude));
+            block.along = pi * side / map.width * std::sin(polar) * Vec3(std::cos(longitude), 0, -std::sin(longitude));
+        }
     blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const Block& block) { return !(block.weight > 0); }), blocks.end());
     return blocks;
 }
@@ -88,7 +98,8 @@ Run run_of(Block* first, Block* last) {
     run.mean /= run.weight;
     for (const Block* block = first; block != last; ++block) {
         const Vec3 off = block->direction() - run.mean;
-        run.variance += block->weight / run.weight * off * off;
+        // Light is even over a block: from -1 to 1, a third.
+        run.variance += block->weight / run.weight * (off * off + (block->down * block->down + block->along * block->along) / 3.0);
     }
     return run;
 }
@@ -115,7 +126,9 @@ LightPart part_of(const Run& run) {
     double cosine = 1;
     Vec3 flux[Ceilings::count] = {};
     for (const Block* block = run.first; block != run.last; ++block) {
-        cosine = std::min(cosine, glm::dot(middle, glm::normalize(block->direction())));
+        for (const double side : {-1.0, 1.0})
+            for (const Vec3& edge : {block->down + block->along, block->down - block->along})
+                cosine = std::min(cosine, glm::dot(middle, glm::normalize(block->direction() + side * edge)));
         for (uint32_t layer = 0; layer < Ceilings::count; ++layer) flux[layer] += block->flux[layer];
     }
     for (int c = 0; c < 3; ++c) part.direction[c] = float(middle[c]);
@@ -127,13 +140,32 @@ LightPart part_of(const Run& run) {
     return part;
 }
 
+// Half a block, across its longer side. The whole's light is even over it.
+Block half_of(const Block& block, double side) {
+    Block half = block;
+    Vec3& cut = glm::length(block.down) > glm::length(block.along) ? half.down : half.along;
+    cut *= 0.5;
+    half.moment += side * block.weight * cut;
+    half.moment *= 0.5;
+    half.weight *= 0.5;
+    for (Vec3& flux : half.flux) flux *= 0.5;
+    return half;
+}
+
 void fill_heap(const Run& run, uint32_t place, LightPart* heap) {
     heap[place] = part_of(run);
     if (2 * place >= LightTree::heap) return;
-    Run low = run, high;  // where the light has one place, the second half is empty
-    halve(run, &low, &high);
-    fill_heap(low, 2 * place, heap);
-    fill_heap(high, 2 * place + 1, heap);
+    Run low, high;
+    if (halve(run, &low, &high)) {
+        fill_heap(low, 2 * place, heap);
+        fill_heap(high, 2 * place + 1, heap);
+        return;
+    }
+    for (uint32_t half = 0; half < 2; ++half) {
+        std::vector<Block> blocks(run.first, run.last);
+        for (Block& block : blocks) block = half_of(block, half == 0 ? -1 : 1);
+        fill_heap(run_of(blocks.data(), blocks.data() + blocks.size()), 2 * place + half, heap);
+    }
 }
 
 }  // namespace

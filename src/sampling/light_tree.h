@@ -10,11 +10,13 @@
 namespace lightband {
 
 // Soft ceilings: of radiance L, L T / (L + T) lies below the ceiling T, the rest above it. A pixel takes the ceiling that suits its
-// lobe's density in a direction, from the first, half the map's mean, in steps of a factor 4; beyond the last, nothing lies above.
+// lobe's density in a direction: where the balance heuristic would weigh a sample of the lobe as much as `worth` of the map. They rise
+// from half the map's mean in steps of a factor 4; beyond the last, nothing lies above.
 // The density with which the map is sampled stands for its radiance: 4 pi times it is L over the mean.
 struct Ceilings {
     static constexpr uint32_t count = 8;
     static constexpr double first = 0.5;  // of the map's mean radiance
+    static constexpr double worth = 16;   // measured (docs/decisions/0009): 2 to 32, least error at 16
     static double at(uint32_t layer) { return first * double(1u << 2 * layer); }
     static double part_above(uint32_t layer, double map_density) {
         const double radiance = 4 * pi * map_density;

@@ -59,11 +59,15 @@ class FrameStats:
     noise_error: float
     """The part of it that more samples would lessen."""
     interpolation_error: float
-    """The part of it that finer levels would lessen; the squares of both add up to that of error."""
+    """The part of it that finer levels would lessen; the squares of it, noise_error and bias_error add up to that of error."""
     capped_pixels: int
     """Pixels whose samples reached the setting "max_samples"; they may have deserved more."""
     rounds: int
     """Rounds of shading: 1 where neither an error nor a time was asked for."""
+    audited_pixels: int
+    """Pixels that were also shaded without bias, to know it; 0: the sampler has none."""
+    bias_error: float
+    """The part of error that a biased sampler gets wrong in the same way at every seed; more samples lessen it."""
 
 
 @dataclass(frozen=True)
