@@ -54,7 +54,7 @@ def our_pictures(stage: Stage, mesh: str, material: Lambert | Ggx | str, environ
     scene.camera(**CAMERA)
     pictures, frames = [], max(2 * spp // SAMPLES, 1)
     for k in range(PICTURES):
-        frame = stage.context.frame(size, size, samples=SAMPLES, coarsest_level=0, seed=k * frames, accumulate=frames)
+        frame = stage.context.frame(size, size, samples=SAMPLES, coarsest_level=0, sampler="combined", seed=k * frames, accumulate=frames)
         frame.render(scene)
         pictures.append(luminance(frame.color))
     return pictures, frame

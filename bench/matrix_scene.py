@@ -20,6 +20,7 @@ from scenes import Stage
 
 TARGETS = (0.10, 0.05, 0.02, 0.01)  # relative error
 BUDGETS = (50, 100, 300, 1000)  # milliseconds
+SAMPLERS = ("cut", "combined", "filtered", "brdf")
 FULL_SAMPLES = (64, 512)
 FIXED_SAMPLES = (32, 128, 512)
 FIXED_SCALES = (0.25, 0.5, 1, 2)
@@ -60,7 +61,7 @@ def references(scenery: Scenery, scene: lightband.Scene, name: str, size: int) -
     pictures = []
     for seed in REFERENCE_SEEDS:
         frame = scenery.stage.context.frame(size, size, samples=scenery.reference_samples, coarsest_level=0, seed=seed,
-                                            accumulate=2)
+                                            sampler="combined", accumulate=2)
         frame.render(scene)
         pictures.append(luminance(frame.color).astype(np.float32))
     part = path.with_suffix(".part.npz")
@@ -94,7 +95,8 @@ def asked_errors(frame: lightband.Frame, scene: lightband.Scene, truth: Truth) -
             least_time(frame, scene)  # shaders and tables; later targets use the same
         milliseconds, stats = least_time(frame, scene), frame.stats
         rows.append({"target": target, "got": truth.error(luminance(frame.color)), "estimated": stats.error,
-                     "noise": stats.noise_error, "interpolation": stats.interpolation_error, "ms": milliseconds,
+                     "noise": stats.noise_error, "interpolation": stats.interpolation_error,
+                     "bias": stats.bias_error, "ms": milliseconds,
                      "prediction_ms": stats.bandwidth_milliseconds, "samples": stats.samples, "shaded": stats.shaded_pixels,
                      "capped": stats.capped_pixels, "rounds": stats.rounds, "bytes": stats.device_bytes})
     frame["target_error"] = 0
@@ -156,7 +158,7 @@ def measure_scene(scenery: Scenery, mesh: str, material: str, environment: str, 
     asked = asked_errors(frame, scene, truth)
     grid = [{"samples": samples, "bandwidth_scale": scale} for samples in FIXED_SAMPLES for scale in FIXED_SCALES]
     full = [{"samples": samples, "coarsest_level": 0, "sampler": sampler}
-            for sampler in ("combined", "brdf") for samples in FULL_SAMPLES]
+            for sampler in SAMPLERS for samples in FULL_SAMPLES]
     return {
         "mesh": mesh, "material": material, "map": environment, "size": size, "covered": int(truth.covered.sum()),
         "asked": asked,

@@ -30,7 +30,7 @@ def measure(stage: Stage, mesh: str, material: str, map_name: str, size: int, sa
     scene = stage.scene(mesh, material, map_name)
     pictures = []
     for seed in (1001, 2002):
-        frame = stage.context.frame(size, size, samples=2 * samples, coarsest_level=0, seed=seed)
+        frame = stage.context.frame(size, size, samples=2 * samples, coarsest_level=0, sampler="combined", seed=seed)
         frame.render(scene)
         pictures.append(luminance(frame.color))
     covered = frame.material > 0

@@ -67,7 +67,7 @@ def main() -> None:
     for what in ("first frame, with its tables", "second, with the driver's last compilations", "adaptive"):
         frame.render(scene, progress=show_progress(what))
     # Every pixel shaded, and many samples: what the error is measured against.
-    reference = context.frame(*size, samples=2048, coarsest_level=0, seed=1, background="environment")
+    reference = context.frame(*size, samples=2048, coarsest_level=0, sampler="combined", seed=1, background="environment")
     reference.render(scene, progress=show_progress("reference"))
 
     frame.save(arguments.out / "demo.png", exposure=EXPOSURE)

@@ -57,13 +57,13 @@ double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
 
 // Of a picture's two replicates and the audit's two, either of one against either of the other: the mean of the products of their
 // deviations has the noise of neither.
-void add_bias(const RoundPixels& pixels, const Audit& audit, ErrorEstimate* estimate) {
+void add_bias(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
     double sum = 0, squares = 0, count = 0;
     for (size_t k = 0; k < audit.at.size(); ++k) {
         const size_t i = audit.at[k];
         const double scale = scale_of(pixels, i, estimate->mean_luminance);
         if (!(scale > 0)) continue;
-        const double deviation = luminance_at(pixels, i) - audit.mean[k], own = pixels.spread[2 * i], other = audit.spread[k];
+        const double deviation = luminance_at(pixels, i) - audit.mean[k], own = pixels.spread[2 * i] / std::sqrt(frames), other = audit.spread[k];
         const double square =
             std::clamp((deviation * deviation - own * own - other * other) / (scale * scale), -largest_square, largest_square);
         sum += square;
@@ -142,8 +142,15 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         result.interpolation_deviation =
             std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / covered);
     }
-    add_bias(pixels, audit, &result);
+    add_bias(pixels, audit, 1, &result);
     return result;
+}
+
+void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
+    add_bias(pixels, audit, frames, estimate);
+    estimate->noise /= frames;
+    estimate->stratification /= frames;
+    estimate->bias = std::max(estimate->bias, (least_true - 1) * estimate->noise);
 }
 
 std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,
@@ -151,12 +158,15 @@ std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& 
     std::vector<double> shape_sums(estimate.slots.size());
     for (size_t i = 0; i < pixels.material.size(); ++i)
         if (is_interpolated(pixels.decision[i])) shape_sums[slot_of[pixels.material[i] - 1u]] += shape[i];
+    // Where an audit found less than the spreads tell, every pixel's noise is less in that proportion.
+    const double known_better =
+        estimate.bias < 0 ? estimate.stratification * estimate.shading() / estimate.noise : estimate.stratification;
     std::vector<float> errors(pixels.material.size());
     for (size_t i = 0; i < errors.size(); ++i) {
         if (pixels.material[i] == 0) continue;
         const double scale = scale_of(pixels, i, estimate.mean_luminance);
         if (!(scale > 0)) continue;
-        double square = estimate.stratification * variance_of_mean(pixels, i) / (scale * scale) + estimate.bias;
+        double square = known_better * variance_of_mean(pixels, i) / (scale * scale) + std::max(estimate.bias, 0.0);
         if (is_interpolated(pixels.decision[i])) {
             const uint32_t slot = slot_of[pixels.material[i] - 1u];
             const ErrorEstimate::Slot& own = estimate.slots[slot];

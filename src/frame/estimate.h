@@ -42,7 +42,8 @@ struct ErrorEstimate {
     // Noise over what the samples' variance says of independent ones: stratified points err less.
     double stratification = 1;
     double interpolation = 0, interpolation_deviation = 0;  // the second: standard error of the first
-    double bias = 0, bias_deviation = 0;                    // of the sampler; likewise
+    // What an audit saw beyond noise and interpolation; negative where the spreads tell of more than there is.
+    double bias = 0, bias_deviation = 0;
     std::vector<Slot> slots;
     std::vector<Tile> tiles;  // tiles_along(width) in a row
 
@@ -52,6 +53,9 @@ struct ErrorEstimate {
 
 // slot_of: BRDF slot of each instance, at its number.
 ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const Audit& audit);
+
+// The same of the mean of several frames, from the estimate of one. pixels: those of one frame, but for the radiance.
+void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate);
 
 // The relative error to be expected of each pixel; 0 where nothing is seen. shape: how the squared error of interpolation is
 // distributed over a slot's interpolated pixels, up to a factor. The root mean square over the covered pixels is error().

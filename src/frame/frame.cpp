@@ -121,7 +121,7 @@ void Frame::finish(Job* job) const {
         next.plan.milliseconds_of({"environment", "bandwidth", "pyramids", "classify", "list", "estimate"});
     stats.shading_milliseconds = next.plan.milliseconds_of({"shade"});
     stats.error = next.estimate.error();
-    stats.noise_error = std::sqrt(next.estimate.noise);
+    stats.noise_error = std::sqrt(next.estimate.noise + std::min(next.estimate.bias, 0.0));
     stats.interpolation_error = std::sqrt(next.estimate.interpolation);
     stats.audited_pixels = uint32_t(job->audit.at.size());
     stats.bias_error = std::sqrt(std::max(next.estimate.bias, 0.0));
@@ -303,8 +303,9 @@ void Frame::accumulate(Job* job) const {
         job->done += job->part;
     }
     for (double value : sum) next.accumulated.push_back(float(value / frames));
-    next.estimate.noise /= frames;
-    next.estimate.stratification /= frames;
+    RoundPixels mean = next.read_round();
+    mean.radiance = next.accumulated;
+    average_error(mean, job->audit, frames, &next.estimate);
 }
 
 lb_frame_stats Frame::stats() const {

@@ -7,7 +7,7 @@
 namespace lightband {
 namespace {
 
-// Parts are not told apart below this size: blocks of texels, 0.7 degrees wide, each of which keeps its own centre.
+// Light is told apart down to blocks 0.7 degrees wide, each of which keeps its own centre.
 constexpr uint32_t most_blocks_around = 512;
 
 // Light of a block of texels: sums over it.
@@ -24,57 +24,91 @@ struct Texel {
     double rgb[3], density;
 };
 
-// One row of the map, interpolated between texel rows where lookup is linear. y: in texels; .5 is a row's middle.
+Texel mix(const Texel& a, const Texel& b, double f) {
+    Texel mixed;
+    for (int c = 0; c < 3; ++c) mixed.rgb[c] = (1 - f) * a.rgb[c] + f * b.rgb[c];
+    mixed.density = (1 - f) * a.density + f * b.density;
+    return mixed;
+}
+
+// The two texels between whose middles a place along an axis lies, and how far it is from the first; with nearest lookup that which
+// holds it.
+struct Between {
+    int64_t first, second;
+    double part;
+};
+Between between(double place, Lookup lookup) {
+    if (lookup == Lookup::nearest) return {int64_t(place), int64_t(place), 0};
+    const double first = std::floor(place - 0.5);
+    return {int64_t(first), int64_t(first) + 1, place - 0.5 - first};
+}
+
+// Lookups are made at the middles of cells, some to a texel: halves of texels integrate exactly what is linear between texels, and
+// cells are never wider than blocks. A block is some cells wide and high.
+struct Grid {
+    uint32_t columns, rows, side;
+    Grid(const RgbImage& map, Lookup lookup) {
+        const uint32_t least = lookup == Lookup::linear ? 2 : 1;
+        const uint32_t cells = std::max(least, least * ((most_blocks_around / least + map.width - 1) / map.width));
+        columns = map.width * cells;
+        rows = map.height * std::max(cells, least * ((most_blocks_around / least / 2 + map.height - 1) / map.height));
+        side = (columns + most_blocks_around - 1) / most_blocks_around;
+    }
+    uint32_t around() const { return (columns + side - 1) / side; }
+    uint32_t down() const { return (rows + side - 1) / side; }
+};
+
+// One row of the map, interpolated between texel rows where lookup is linear. y: in texels.
 std::vector<Texel> row_at(const RgbImage& map, const MapSampler& sampler, Lookup lookup, double y) {
-    const double below = std::floor(y - 0.5);
-    const auto held = [&](double row) { return uint32_t(std::clamp(row, 0.0, map.height - 1.0)); };
-    const uint32_t first = lookup == Lookup::linear ? held(below) : uint32_t(y), second = lookup == Lookup::linear ? held(below + 1) : first;
-    const double f = y - 0.5 - below;
+    const Between at = between(y, lookup);
     std::vector<Texel> row(map.width);
     for (uint32_t x = 0; x < map.width; ++x) {
-        for (int c = 0; c < 3; ++c) row[x].rgb[c] = (1 - f) * map.texel(x, first)[c] + f * map.texel(x, second)[c];
-        row[x].density = (1 - f) * sampler.texel_pdf(x, first) + f * sampler.texel_pdf(x, second);
+        const auto texel = [&](int64_t r) {
+            const uint32_t held = uint32_t(std::clamp<int64_t>(r, 0, map.height - 1));
+            const float* rgb = map.texel(x, held);
+            return Texel{{rgb[0], rgb[1], rgb[2]}, sampler.texel_pdf(x, held)};
+        };
+        row[x] = mix(texel(at.first), texel(at.second), at.part);
     }
     return row;
 }
 
-// Lookups at the middles of half texels (of texels, where lookup is nearest) integrate what is linear between them exactly.
+// Where a block lies, and from its middle to its edges.
+Block empty_block(const Grid& grid, uint32_t column, uint32_t row) {
+    const double height = double(grid.side) / grid.rows, width = double(grid.side) / grid.columns;
+    const double polar = pi * (row + 0.5) * height, longitude = (0.5 - (column + 0.5) * width) * 2 * pi;
+    Block block;
+    block.down = pi * height / 2 * Vec3(std::cos(polar) * std::sin(longitude), -std::sin(polar), std::cos(polar) * std::cos(longitude));
+    block.along = pi * width * std::sin(polar) * Vec3(std::cos(longitude), 0, -std::sin(longitude));
+    return block;
+}
+
 std::vector<Block> blocks_of(const RgbImage& map, const MapSampler& sampler, Lookup lookup) {
-    const uint32_t parts = lookup == Lookup::linear ? 2 : 1, columns = map.width * parts, rows = map.height * parts;
-    const uint32_t side = std::max(1u, (map.width + most_blocks_around - 1) / most_blocks_around);
-    const uint32_t around = (map.width + side - 1) / side, down = (map.height + side - 1) / side;
-    std::vector<Block> blocks(size_t(around) * down);
-    std::vector<Vec2> longitudes(columns);
-    for (uint32_t i = 0; i < columns; ++i) {
-        const double longitude = (0.5 - (i + 0.5) / columns) * 2 * pi;
+    const Grid grid(map, lookup);
+    std::vector<Block> blocks;
+    for (uint32_t row = 0; row < grid.down(); ++row)
+        for (uint32_t column = 0; column < grid.around(); ++column) blocks.push_back(empty_block(grid, column, row));
+    std::vector<Vec2> longitudes(grid.columns);
+    for (uint32_t i = 0; i < grid.columns; ++i) {
+        const double longitude = (0.5 - (i + 0.5) / grid.columns) * 2 * pi;
         longitudes[i] = Vec2(std::sin(longitude), std::cos(longitude));
     }
-    for (uint32_t j = 0; j < rows; ++j) {
-        const double y = (j + 0.5) / parts, polar = pi * y / map.height;
-        const double solid_angle = 2 * pi / columns * (std::cos(pi * j / rows) - std::cos(pi * (j + 1.0) / rows));
-        const std::vector<Texel> row = row_at(map, sampler, lookup, y);
-        for (uint32_t i = 0; i < columns; ++i) {
-            // Half texels lie a quarter of the way from one texel's middle to the next.
-            const uint32_t own = i / parts, next = i % 2 != 0 ? (own + 1) % map.width : (own + map.width - 1) % map.width;
-            const double f = parts == 2 ? 0.25 : 0;
-            const double density = (1 - f) * row[own].density + f * row[next].density;
-            Vec3 whole;
-            for (int c = 0; c < 3; ++c) whole[c] = solid_angle * ((1 - f) * row[own].rgb[c] + f * row[next].rgb[c]);
-            const double weight = Ceilings::part_above(0, density) * (whole.x + whole.y + whole.z) / 3;
-            Block& block = blocks[size_t(j / parts / side) * around + own / side];
-            for (uint32_t layer = 0; layer < Ceilings::count; ++layer) block.flux[layer] += Ceilings::part_above(layer, density) * whole;
+    for (uint32_t j = 0; j < grid.rows; ++j) {
+        const double polar = pi * (j + 0.5) / grid.rows;
+        const double solid_angle = 2 * pi / grid.columns * (std::cos(pi * j / grid.rows) - std::cos(pi * (j + 1.0) / grid.rows));
+        const std::vector<Texel> row = row_at(map, sampler, lookup, (j + 0.5) / grid.rows * map.height);
+        for (uint32_t i = 0; i < grid.columns; ++i) {
+            const Between at = between((i + 0.5) / grid.columns * map.width, lookup);
+            const auto texel = [&](int64_t x) -> const Texel& { return row[size_t((x + map.width) % map.width)]; };
+            const Texel light = mix(texel(at.first), texel(at.second), at.part);
+            const Vec3 whole = solid_angle * Vec3(light.rgb[0], light.rgb[1], light.rgb[2]);
+            const double weight = Ceilings::part_above(0, light.density) * (whole.x + whole.y + whole.z) / 3;
+            Block& block = blocks[size_t(j / grid.side) * grid.around() + i / grid.side];
+            for (uint32_t layer = 0; layer < Ceilings::count; ++layer) block.flux[layer] += Ceilings::part_above(layer, light.density) * whole;
             block.weight += weight;
             block.moment += weight * Vec3(std::sin(polar) * longitudes[i].x, std::cos(polar), std::sin(polar) * longitudes[i].y);
         }
     }
-    for (uint32_t j = 0; j < down; ++j)
-        for (uint32_t i = 0; i < around; ++i) {
-            Block& block = blocks[size_t(j) * around + i];
-            const double polar = pi * (j + 0.5) * side / map.height, longitude = (0.5 - (i + 0.5) * side / map.width) * 2 * pi;
-            block.down = pi * side / map.height / 2 *
-                         Vec3(std::cos(polar) * std::sin(longitude), -std::sin(polar), std::cos(polar) * std::cos(longitude));
-            block.along = pi * side / map.width * std::sin(polar) * Vec3(std::cos(longitude), 0, -std::sin(longitude));
-        }
     blocks.erase(std::remove_if(blocks.begin(), blocks.end(), [](const Block& block) { return !(block.weight > 0); }), blocks.end());
     return blocks;
 }

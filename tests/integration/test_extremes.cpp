@@ -42,6 +42,7 @@ Frame sampled_frame(uint32_t width, uint32_t height, double samples) {
     Frame frame = software().frame(width, height);
     frame.set("coarsest_level", 0);
     frame.set("samples", samples);
+    frame.set("sampler", "combined");  // unbiased: its deviations are counted in standard errors
     frame.set("sequence", "random");
     set_lookups(frame, nearest);
     return frame;

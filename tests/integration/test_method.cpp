@@ -69,6 +69,7 @@ void adaptive_samples_meet_the_quadrature(void**) {
             Frame frame = software().frame(side, side);
             frame.set("coarsest_level", 0);
             frame.set("samples", 2048);
+            frame.set("sampler", "combined");
             frame.set("sequence", "random");
             set_lookups(frame, lookups);
             frame.render(scene);
@@ -132,6 +133,7 @@ void white_furnace_is_white(void**) {
 void white_furnace_is_white_on_average_by_both_samplers(void**) {
     Frame frame = software().frame(48, 48);
     frame.set("coarsest_level", 0);
+    frame.set("sampler", "combined");
     frame.render(white_furnace());
     const std::vector<float> variance = field<float>(frame, "variance_measured");
     const std::vector<uint32_t> samples = field<uint32_t>(frame, "sample_count");

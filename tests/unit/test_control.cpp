@@ -43,7 +43,7 @@ RoundPixels synthetic(Random& random, size_t count, double variance, double bias
 void the_error_that_is_there_is_found(void**) {
     Random random(11);
     const double variance = 0.16, bias = 0.1, scale = 2.02;
-    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, variance, bias), {0}, 1);
+    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, variance, bias), {0}, 1, {});
     const double noise = variance / 64 / (scale * scale);
     check_close("noise", estimate.noise / noise, 1, 0.03);
     check_close("stratification", estimate.stratification, 1, 0.03);
@@ -54,7 +54,7 @@ void the_error_that_is_there_is_found(void**) {
 
 void noise_is_not_taken_for_interpolation(void**) {
     Random random(12);
-    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, 0.64, 0), {0}, 1);
+    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, 0.64, 0), {0}, 1, {});
     // A mean of 5,000 products of independent normals is within four standard errors of 0.
     assert_true(estimate.slots[0].interpolation <= 4 * estimate.slots[0].interpolation_deviation);
 }
@@ -62,7 +62,7 @@ void noise_is_not_taken_for_interpolation(void**) {
 void the_root_mean_square_of_pixels_is_the_frame(void**) {
     Random random(13);
     const RoundPixels pixels = synthetic(random, 5000, 0.16, 0.1);
-    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1);
+    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, {});
     std::vector<float> shape(5000);
     for (float& value : shape) value = float(random.uniform());
     double sum = 0;
@@ -77,9 +77,9 @@ void a_frame_without_light_has_no_error(void**) {
     pixels.sample_count.assign(10, 8);
     pixels.decision.assign(10, shaded);
     pixels.material.assign(10, 1);
-    assert_true(estimate_error(pixels, {0}, 1).error() == 0);
+    assert_true(estimate_error(pixels, {0}, 1, {}).error() == 0);
     pixels.material.assign(10, 0);
-    assert_true(estimate_error(pixels, {0}, 1).error() == 0);
+    assert_true(estimate_error(pixels, {0}, 1, {}).error() == 0);
 }
 
 // ---- Planning ---------------------------------------------------------------------------------------
@@ -164,7 +164,7 @@ void tiles_count_their_own_witnesses(void**) {
     Random random(14);
     RoundPixels pixels = synthetic(random, 40 * 24, 0.16, 0.1);
     pixels.width = 40;  // three tiles a row, the last of 8 pixels, and two rows of them
-    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1);
+    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, {});
     assert_int_equal(estimate.tiles.size(), 6);
     uint64_t witnesses = 0, interpolated_pixels = 0;
     for (const ErrorEstimate::Tile& tile : estimate.tiles) {
