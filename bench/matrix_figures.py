@@ -14,7 +14,7 @@ import numpy as np
 
 RANDOM = -2.0  # d log time / d log error of independent samples
 STRATIFIED = -1.0  # and of the best stratified ones
-ASKED = ("mesh", "material", "map", "size", "target", "got", "estimated", "noise", "interpolation", "ms", "prediction ms",
+ASKED = ("mesh", "material", "map", "size", "target", "got", "estimated", "noise", "interpolation", "bias", "ms", "prediction ms",
          "samples", "shaded", "capped", "rounds", "bytes")
 RUNS = ("first ms", "second ms", "third ms")
 BUDGET = ("mesh", "material", "map", "size", "budget ms", *RUNS, "got", "estimated")

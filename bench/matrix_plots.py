@@ -15,7 +15,8 @@ from matrix_figures import RUNS, column, frontier, geometric_mean, peer_curve, t
 
 INK, GUIDE, OURS = "0.15", "0.6", "#c23b22"
 RIVAL_COLOURS = {"papers' reference": "#4d4d4d", "papers' adaptive": "#9a9a9a", "every pixel, BRDF samples": "#8c6bb1",
-                 "every pixel, combined samples": "#2b7bba", "best fixed setting": "#e6a000", "Mitsuba": "#2a9d5c"}
+                 "every pixel, combined samples": "#2b7bba", "every pixel, filtered samples": "#d0729d",
+                 "every pixel, cut": "#c99700", "best fixed setting": "#e6a000", "Mitsuba": "#2a9d5c"}
 MATERIAL_COLOURS = ("#c99700", "#8c6bb1", "#c23b22", "#2a9d5c", "#2b7bba", "#4d4d4d", "#d0729d", "#8a5a2b")
 RIVALS = {"reference": "papers' reference", "Mitsuba": "Mitsuba"}
 AIMS = {("reference", 0.05): 100, ("reference", 0.02): 60, ("Mitsuba", 0.05): 10, ("Mitsuba", 0.02): 6}  # of the means
@@ -130,7 +131,8 @@ def curves_of(record: dict) -> dict[str, list[tuple[float, float]]]:
     curves = {}
     for name, point in (("papers' reference", record["reference"]), ("papers' adaptive", record["papers"])):
         curves[name] = [(error, time_of_random(point, error)) for error in point["got"] * np.array([2, 1, 0.5, 0.25])]
-    for name, sampler in (("every pixel, BRDF samples", "brdf"), ("every pixel, combined samples", "combined")):
+    for name, sampler in (("every pixel, BRDF samples", "brdf"), ("every pixel, filtered samples", "filtered"),
+                          ("every pixel, combined samples", "combined"), ("every pixel, cut", "cut")):
         curves[name] = [(point["got"], point["ms"]) for point in record["full"] if point["sampler"] == sampler]
     if record["fixed"]:
         curves["best fixed setting"] = frontier((point["got"], point["ms"]) for point in record["fixed"])

@@ -36,7 +36,7 @@ def measure(stage: Stage, mesh: str, material: str, map_name: str, size: int, sa
     covered = frame.material > 0
     row: dict = {"mesh": mesh, "material": material, "map": map_name}
     for form in FORMS:
-        frame = stage.context.frame(size, size, samples=samples, transport=form, bandwidth_scale=1, seed=7)
+        frame = stage.context.frame(size, size, samples=samples, transport=form, bandwidth_scale=1, sampler="combined", seed=7)
         frame.render(scene)
         row[f"{form} shaded"] = np.count_nonzero(frame.shaded) / np.count_nonzero(covered)
         row[f"{form} error"] = relative_error(luminance(frame.color), *pictures, covered)

@@ -8,7 +8,7 @@ layout(std140, binding = 0) uniform Trunk { vec4 trunk[2 * TRUNK_PARTS]; };
 
 // A part is halved further where its own error by the formula above is so many times what the cut was made for. Where the horizon cuts
 // it, it may be brighter than at its centre, so many times.
-const float surprising = 2.0, horizon_doubt = 8.0;
+const float surprising = 5.0, horizon_doubt = 8.0;
 
 // RGB; size: the parts that the cut is to have, about. coarser: the luminance of a cut of half as many.
 vec3 light_above(Pixel pixel, float size, out float coarser) {

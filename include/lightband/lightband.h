@@ -301,7 +301,8 @@ typedef struct lb_frame_stats {
     uint32_t frames;             /* frames averaged: the setting "accumulate" */
     uint64_t covered_pixels;     /* pixels that see a mesh */
     uint64_t shaded_pixels;      /* those whose integral was computed; the others were interpolated */
-    uint64_t samples;            /* light samples drawn, counted by the shaders themselves, all frames */
+    uint64_t samples;            /* light samples that the picture is made of, counted by the shaders themselves, all frames;
+                                    those of rounds that were drawn anew, of probes and of audits are not among them */
     uint64_t saturated_pixels;   /* covered pixels whose predicted bandwidth reached 0.5 cycles per pixel */
     uint64_t bent_normals;       /* covered pixels whose shading normal faced away and was turned to the eye */
     uint64_t device_bytes;       /* device memory held by the scene and this frame */

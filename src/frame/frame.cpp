@@ -118,7 +118,7 @@ void Frame::finish(Job* job) const {
                          sequence_->buffer.bytes();
     stats.milliseconds = next.plan.total_milliseconds();
     stats.bandwidth_milliseconds =
-        next.plan.milliseconds_of({"environment", "bandwidth", "pyramids", "classify", "list", "estimate"});
+        next.plan.milliseconds_of({"environment", "bandwidth", "probe", "audit", "pyramids", "classify", "list", "estimate"});
     stats.shading_milliseconds = next.plan.milliseconds_of({"shade"});
     stats.error = next.estimate.error();
     stats.noise_error = std::sqrt(next.estimate.noise + std::min(next.estimate.bias, 0.0));

@@ -156,7 +156,7 @@ def one_texel_under_lambert(figure: str) -> Row:
     def measure(context: lightband.Context) -> float:
         texels = one_bright_texel()
         scene = scene_of(context, context.lambert(albedo), texels)
-        frame = rendered(context, scene, samples=1024, coarsest_level=0, sequence="random")
+        frame = rendered(context, scene, samples=1024, coarsest_level=0, sequence="random", sampler="combined")
         seen = frame.material > 0
         error = np.sqrt(frame.variance_measured[seen].astype(np.float64) / frame.sample_count[seen])
         score = (luminance(frame) - albedo / np.pi * light_of_one_texel(texels)) / error

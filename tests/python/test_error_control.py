@@ -25,7 +25,7 @@ def true_error(frame, a, b):
 @pytest.fixture(scope="module", params=["rough-gold", "matte-fabric", "interference-paint"])
 def subject(request, context):
     brdf = context.builtin_brdf(request.param)
-    references = [luminance(render(context, brdf, np.eye(3), samples=8192, seed=seed, coarsest_level=0)) for seed in (91, 92)]
+    references = [luminance(render(context, brdf, np.eye(3), samples=8192, seed=seed, coarsest_level=0, sampler="combined")) for seed in (91, 92)]
     return brdf, references
 
 
@@ -34,17 +34,18 @@ def test_what_is_asked_is_reached_and_no_more(context, subject, asked):
     brdf, references = subject
     frames = [render(context, brdf, np.eye(3), target_error=asked, seed=seed) for seed in (1, 2, 3)]
     got = np.array([true_error(frame, *references) for frame in frames])
-    # The issue's bounds: at most 1.5 times what was asked in any frame, at least half of it in the median (a frame of few pixels
-    # cannot stop in the middle of a round, hence a third).
+    # What is promised: at most 1.5 times what was asked in any frame, at least half of it in the median (a frame of few pixels
+    # cannot stop in the middle of a round, hence a third; and one that has the fewest samples everywhere cannot have fewer).
     assert got.max() < 1.5 * asked
-    assert np.median(got) > asked / 3
+    fewest = all(np.percentile(frame.sample_count[frame.sample_count > 0], 90) <= 16 for frame in frames)
+    assert np.median(got) > asked / 3 or fewest
     for frame, true in zip(frames, got):
         assert frame.stats.error <= asked
         # The estimate of 3,000 pixels and some 200 witnesses.
         assert frame.stats.error / 1.5 < true < 1.5 * frame.stats.error
 
 
-@pytest.mark.parametrize("settings", [{"samples": 16}, {"samples": 256}, {"method": "reference", "samples": 64},
+@pytest.mark.parametrize("settings", [{"samples": 16}, {"samples": 256, "sampler": "combined"}, {"method": "reference", "samples": 64},
                                       {"samples": 64, "coarsest_level": 0}, {"samples": 16, "accumulate": 8},
                                       {"sampler": "brdf", "samples": 64}])
 def test_every_frame_knows_its_error(context, subject, settings):
@@ -58,7 +59,7 @@ def test_the_field_is_the_number_pixel_by_pixel(context, subject):
     covered = frame.material > 0
     assert np.sqrt(np.mean(frame.error[covered].astype(np.float64) ** 2)) == pytest.approx(frame.stats.error, rel=1e-5)
     assert (frame.error[~covered] == 0).all() and (frame.error >= 0).all()
-    parts = np.hypot(frame.stats.noise_error, frame.stats.interpolation_error)
+    parts = np.linalg.norm([frame.stats.noise_error, frame.stats.interpolation_error, frame.stats.bias_error])
     assert parts == pytest.approx(frame.stats.error, rel=1e-12)
 
 
@@ -141,8 +142,8 @@ def test_the_fewest_samples_are_unbiased(context, samples):
     """One sample of a pixel comes from the lobe or from the map by chance: many frames of one have the mean of a long one."""
     brdf = context.ggx(0.3, (0.9, 0.7, 0.4))
     settings = dict(samples=samples, coarsest_level=0, seed=1)
-    few = render(context, brdf, np.eye(3), accumulate=512, **settings)
-    many = render(context, brdf, np.eye(3), samples=16384, coarsest_level=0, seed=7001)
+    few = render(context, brdf, np.eye(3), accumulate=512, sampler="combined", **settings)
+    many = render(context, brdf, np.eye(3), samples=16384, coarsest_level=0, sampler="combined", seed=7001)
     covered = few.material > 0
     relative = luminance(few)[covered] / luminance(many)[covered] - 1
     # The mean over 3,000 pixels, whose errors the map's points share: their spread over the root of the frames.

@@ -28,8 +28,15 @@ def passes(frame):
 
 def test_an_adaptive_frame(context, sphere):
     frame = rendered(context, sphere, samples=16)
-    assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate"]
+    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "pyramids", "classify", "list", "shade", "upsample",
+                             "estimate"]
     assert frame.stats.rounds == 1
+
+
+def test_without_bias_nothing_is_audited(context, sphere):
+    frame = rendered(context, sphere, samples=16, sampler="combined")
+    assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate"]
+    assert frame.stats.audited_pixels == 0 and frame.stats.bias_error == 0
 
 
 def test_a_reference_predicts_and_interpolates_nothing(context, sphere):
@@ -50,9 +57,10 @@ def test_no_background_no_pass(context, sphere):
 
 
 def test_rounds_repeat_passes_and_add_none(context, sphere):
-    frame = rendered(context, sphere, target_error=0.01)
+    frame = rendered(context, sphere, target_error=0.01, sampler="brdf")
     assert frame.stats.rounds > 1
-    assert passes(frame) == passes(rendered(context, sphere, samples=16))
+    once = passes(rendered(context, sphere, samples=16, sampler="brdf"))
+    assert passes(frame) == [*once[:4], "probe", *once[4:]]
 
 
 def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):

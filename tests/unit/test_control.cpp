@@ -152,7 +152,7 @@ void a_single_witness_is_doubted_while_there_is_noise(void**) {
         Control control(settings, {1520, 1, 1}, 2, {}, 0);
         control.plan(some_histogram(), 0);
         const float scale = control.scales()[0];
-        ErrorEstimate estimate = estimate_of((noisy ? 2 : 0.9) * allowed, 0.02 * 0.02);
+        ErrorEstimate estimate = estimate_of((noisy ? 2 : 0.9) * allowed, 0.03 * 0.03);
         estimate.interpolation_deviation = 0.04 * 0.04;
         estimate.tiles = {{300, 8, 0.5, 0.25}, {300, 200, 0, 0}};  // one of eight, by 70 %
         assert_true(control.again(estimate, {}));
@@ -179,6 +179,61 @@ void tiles_count_their_own_witnesses(void**) {
     assert_int_equal(estimate.tiles[5].witnesses, 8 * 1);
 }
 
+// A picture that is wrong by the same in every pixel, of which two replicates tell nothing; the audit's two err by chance alone.
+void an_audit_sees_what_the_spreads_do_not(void**) {
+    Random random(15);
+    const double scale = 2.02, wrong = 0.2, doubt = 0.1;
+    for (const double factor : {0.0, 1.0}) {
+        const RoundPixels pixels = synthetic(random, 20000, 0.16, 0);
+        Audit audit;
+        for (uint32_t i = 0; i < 20000; i += 8) {  // witnesses, which are shaded
+            const double a = doubt * normal(random), b = doubt * normal(random);
+            audit.at.push_back(i);
+            audit.mean.push_back(float(2 + factor * wrong + 0.5 * (a + b)));
+            audit.spread.push_back(float(0.5 * (a - b)));
+        }
+        const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
+        // 2,500 products of deviations of 0.2: known to a few percent; and none is within three standard errors of 0.
+        const double expected = std::pow(factor * wrong / scale, 2);
+        if (factor > 0)
+            check_close("bias", estimate.bias / expected, 1, 0.1);
+        else
+            check_at_most("bias", std::abs(estimate.bias), 3 * estimate.bias_deviation + 1e-12);
+    }
+}
+
+void who_is_drawn_among_few_is_among_more(void**) {
+    uint32_t few = 0, more = 0;
+    std::vector<uint32_t> rows(256);
+    for (uint32_t y = 0; y < 256; ++y)
+        for (uint32_t x = 0; x < 256; ++x) {
+            const bool drawn = is_drawn(x, y, 77, 1.0 / 32);
+            few += drawn;
+            rows[y] += drawn;
+            more += is_drawn(x, y, 77, 1.0 / 16);
+            assert_true(!drawn || is_drawn(x, y, 77, 1.0 / 16));
+        }
+    // Binomial: four standard deviations of 65,536 trials; and no row of 256 has none of its 8 or thrice as many (e^-8, 1e-6).
+    check_close("a 32nd", few, 2048, 4 * std::sqrt(2048.0));
+    check_close("a 16th", more, 4096, 4 * std::sqrt(4096.0));
+    assert_true(*std::max_element(rows.begin(), rows.end()) < 28);
+}
+
+// A frame without bias and without an error to keep looks at no pixel; one with a time looks at fewer.
+void an_audit_takes_what_it_may(void**) {
+    Settings settings;
+    assert_true(Audit::effort(settings, 30000, 5000).samples == 4 * settings.samples());
+    settings.set_choice("sampler", "combined");
+    assert_true(Audit::effort(settings, 30000, 5000).part == 0);
+    settings.set_number("target_error", 0.02);
+    assert_true(Audit::effort(settings, 30000, 5000).probe > 0 && Audit::effort(settings, 30000, 5000).samples == 0);
+    settings.set_choice("sampler", "cut");
+    assert_int_equal(Audit::effort(settings, 30000, 5000).samples, 1250);  // half the inverse square of the error
+    settings.set_number("time_budget", 50);
+    const Audit::Effort hurried = Audit::effort(settings, 30000, 5000);
+    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + Pace::pixel_samples), 1.2 * 0.06 * 50 * 5000);
+}
+
 void a_time_is_shared_between_two_rounds(void**) {
     const Settings settings = asking("time_budget", 1000);
     Pace pace;
@@ -192,15 +247,18 @@ void a_time_is_shared_between_two_rounds(void**) {
         return sum;
     };
     const double first = samples(control.plan(histogram, 10));
-    check_close("first round, milliseconds", first / 1000, 0.3 * (1000 - 10 - 12), 2);
+    // What 1,520 pixels cost before their first sample is taken off the time.
+    const double before_first = 1520 * Pace::pixel_samples;
+    check_close("first round, milliseconds", (first + before_first) / 1000, 0.15 * (1000 - 10 - 12), 2);
     RoundCost cost;
     cost.samples = uint64_t(first);
-    cost.shading_milliseconds = 2 * first / 1000;  // half as fast as it was thought to be
+    cost.pixels = 1520;
+    cost.shading_milliseconds = 2 * (first + before_first) / 1000;  // half as fast as it was thought to be
     cost.other_milliseconds = 20;
     cost.elapsed_milliseconds = 10 + cost.shading_milliseconds + 20;
     assert_true(control.again(estimate_of(0.01, 0), cost));
-    const double second = samples(control.plan(histogram, cost.elapsed_milliseconds)) - first;
-    check_close("second round, milliseconds", second / 500, 1000 - cost.elapsed_milliseconds - 12, 4);
+    const double second = samples(control.plan(histogram, cost.elapsed_milliseconds));  // all are drawn anew
+    check_close("second round, milliseconds", (second + before_first) / 500, 1000 - cost.elapsed_milliseconds - 12, 4);
     cost.elapsed_milliseconds = 990;
     assert_false(control.again(estimate_of(0.01, 0), cost));
 }
@@ -220,6 +278,9 @@ int main() {
         cmocka_unit_test(noise_asks_for_samples_and_interpolation_for_levels),
         cmocka_unit_test(a_single_witness_is_doubted_while_there_is_noise),
         cmocka_unit_test(tiles_count_their_own_witnesses),
+        cmocka_unit_test(an_audit_sees_what_the_spreads_do_not),
+        cmocka_unit_test(who_is_drawn_among_few_is_among_more),
+        cmocka_unit_test(an_audit_takes_what_it_may),
         cmocka_unit_test(a_time_is_shared_between_two_rounds),
     };
     return cmocka_run_group_tests_name("control", tests, nullptr, nullptr);

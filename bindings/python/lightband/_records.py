@@ -41,7 +41,7 @@ class FrameStats:
     shaded_pixels: int
     """Those whose integral was computed; the others were interpolated."""
     samples: int
-    """Light samples drawn, counted by the shaders themselves, all frames."""
+    """Light samples that the picture is made of, counted by the shaders themselves, all frames."""
     saturated_pixels: int
     """Covered pixels whose predicted bandwidth reached 0.5 cycles per pixel."""
     bent_normals: int

@@ -1,0 +1,156 @@
+"""The biased samplers (filtered, cut): exact where they must be, better where they may be, absent where they are not asked for."""
+
+import numpy as np
+import pytest
+
+from test_method import directions, light
+
+EVERY = {"coarsest_level": 0}  # pixel is shaded
+
+
+def scene_of(context, brdf, environment):
+    scene = context.scene()
+    scene.environment = environment
+    scene.add(context.builtin_mesh("sphere", 64), brdf)
+    scene.camera(eye=(0.3, 0.4, 1.9), target=(0, 0, 0), fov_y=0.6)
+    return scene
+
+
+def rendered(context, scene, **settings):
+    frame = context.frame(48, 40, **settings)
+    frame.render(scene)
+    return frame
+
+
+def deviation(frame, truth):
+    """Root mean square over the covered pixels, relative to what they show."""
+    covered = truth.material > 0
+    return np.sqrt(np.mean((frame.color[covered][:, :3] / truth.color[covered][:, :3] - 1) ** 2))
+
+
+@pytest.fixture(scope="module")
+def smooth(context):
+    return context.environment(light(directions()))
+
+
+def test_a_constant_map_has_no_footprint(context):
+    """Whatever the footprint, the mean of a constant is the constant: a Lambertian furnace stays exact but for half floats' 2^-11."""
+    scene = scene_of(context, context.lambert(1.0), context.environment(np.ones((16, 32, 3), np.float32)))
+    frame = rendered(context, scene, samples=4, sampler="filtered", **EVERY)
+    np.testing.assert_allclose(frame.color[frame.material > 0], 1, atol=2**-11)
+
+
+def test_a_mirror_looks_the_map_up_as_it_is(context, smooth):
+    """A footprint below a texel of 128 x 128 (8e-4 steradians at most) is a lookup of the map itself.
+
+    GGX of alpha a draws densities below p with a chance of 2 a sqrt(pi p): with eight samples for each replicate, footprints of
+    1 / (8 p) reach a texel for 0.5 % of the samples, and 7 % of the pixels have one. All others keep every bit.
+    """
+    scene = scene_of(context, context.ggx(1e-4, (0.9, 0.9, 0.9)), smooth)
+    plain, filtered = (rendered(context, scene, samples=16, sampler=sampler, **EVERY) for sampler in ("brdf", "filtered"))
+    covered = plain.material > 0
+    assert (plain.color[covered] != filtered.color[covered]).any(axis=-1).mean() < 0.15
+    assert deviation(filtered, plain) < 0.05  # 7 % of the pixels, one of whose 16 samples is blurred
+
+
+@pytest.mark.parametrize("sampler, unbiased", [("filtered", "brdf"), ("cut", "combined")])
+def test_bias_takes_noise_away_and_falls(context, smooth, sampler, unbiased):
+    scene = scene_of(context, context.ggx(0.3, (0.9, 0.6, 0.3)), smooth)
+    truth = rendered(context, scene, samples=1024, accumulate=16, seed=9, sampler="combined", **EVERY)
+    plain = rendered(context, scene, samples=16, sampler=unbiased, **EVERY)
+    biased, finer = (rendered(context, scene, samples=samples, sampler=sampler, **EVERY) for samples in (16, 256))
+    # What they are for: half the error at equal samples (a quarter of the samples at equal error) under the smoothest map.
+    assert deviation(biased, truth) < 0.5 * deviation(plain, truth)
+    # Sixteen times the samples shrink footprints and parts to a sixteenth: a bias of second order falls by sixteen, noise by four
+    # and more.
+    assert deviation(finer, truth) < deviation(biased, truth) / 3
+
+
+def test_a_cut_of_a_constant_map_is_the_constant(context):
+    """Below the soft ceilings lies a part of the light, above them the rest: together the furnace's 1, at any roughness.
+
+    The cut's parts are cells of the sphere, and the cosine is taken at their middles: a midpoint rule of some 30 cells a
+    hemisphere errs by its second order, (0.4 radians)^2 / 24 of the half of the light that lies above.
+    """
+    scene = scene_of(context, context.lambert(1.0), context.environment(np.ones((16, 32, 3), np.float32)))
+    for samples, bound in ((16, 0.02), (1024, 0.002)):
+        frame = rendered(context, scene, samples=samples, sampler="cut", **EVERY)
+        np.testing.assert_allclose(frame.color[frame.material > 0], 1, atol=bound)
+
+
+def test_a_cut_does_not_depend_on_where_the_map_is_bright(context):
+    """Turning the world by a quarter about the up axis turns the map's columns, its blocks and its tree along."""
+    texels = light(directions())
+    pictures = []
+    for quarter in (0, 1):
+        scene = context.scene()
+        scene.environment = context.environment(np.roll(texels, quarter * texels.shape[1] // 4, axis=1))
+        scene.add(context.builtin_mesh("sphere", 64), context.ggx(0.3, (0.9, 0.6, 0.3)))
+        angle = -quarter * np.pi / 2  # +X of the map lies left of its middle
+        scene.camera(eye=(1.9 * np.sin(0.3 + angle), 0.4, 1.9 * np.cos(0.3 + angle)), target=(0, 0, 0), fov_y=0.6)
+        pictures.append(rendered(context, scene, samples=1024, sampler="cut", **EVERY))
+    one, other = (picture.color[picture.material > 0][:, :3].mean(axis=0) for picture in pictures)
+    # Two frames of 1,024 samples a pixel, each within half a percent: their means agree to far better.
+    np.testing.assert_allclose(one, other, rtol=2e-3)
+
+
+@pytest.mark.parametrize("value", [0.0, 1e-40, 1e15])
+def test_the_darkest_and_the_brightest_map(context, value):
+    """A black, a denormal and the brightest map that is taken: relative to it, everything is as ever."""
+    texels = np.full((16, 32, 3), value, np.float32)
+    scene = scene_of(context, context.ggx(0.4, (0.9, 0.9, 0.9)), context.environment(texels))
+    for sampler in ("filtered", "cut"):
+        color = rendered(context, scene, samples=16, sampler=sampler, **EVERY).color[..., :3]
+        assert np.isfinite(color).all()
+        assert color.max() <= 1.5 * texels.max()  # twice what is reflected would show a ceiling that was counted twice
+
+
+def test_one_texel_of_a_million(context):
+    texels = np.full((32, 64, 3), 0.01, np.float32)
+    texels[9, 17] = 1e6
+    scene = scene_of(context, context.ggx(0.4, (0.9, 0.9, 0.9)), context.environment(texels))
+    truth = rendered(context, scene, samples=1024, sampler="combined", **EVERY)
+    cut = rendered(context, scene, samples=256, sampler="cut", **EVERY)
+    covered = truth.material > 0
+    assert np.isfinite(cut.color).all()
+    # The lamp is a part of every cut: what it sends is known where it is.
+    assert abs(cut.color[covered][:, :3].mean() / truth.color[covered][:, :3].mean() - 1) < 0.02
+
+
+def test_tables_are_made_when_they_are_asked_for(context):
+    """A layer of 16 bytes a texel on the square that fits the map, or eight of 8 and the tree; with all coarser levels."""
+    environment = context.environment(light(directions()))  # 128 rows: a square of 128 texels a side
+    scene = scene_of(context, context.ggx(0.3, (0.9, 0.9, 0.9)), environment)
+    texels = sum((128 >> level) ** 2 for level in range(8))
+    sizes = [rendered(context, scene, samples=16, sampler=sampler, **EVERY).stats.device_bytes
+             for sampler in ("brdf", "filtered", "combined", "cut")]
+    importance = 64 * (16 * 16 + 1) * 4  # of each view, cells and their integral
+    points = 65536 * 32 + 64 * 32  # the audits of both biased samplers draw some pixels by the map's points
+    tree = 64 * 128 * (4 + 8 * 4) * 4 + 64 * 32
+    assert sizes[1] - sizes[0] == 16 * texels + points + importance
+    assert sizes[2] == sizes[1]
+    assert sizes[3] - sizes[2] == 8 * 8 * texels + tree
+
+
+def test_a_reference_has_no_bias(context, smooth):
+    scene = scene_of(context, context.lambert(0.5), smooth)
+    frames = [rendered(context, scene, method="reference", samples=16, sampler=sampler) for sampler in ("cut", "brdf")]
+    assert frames[0].color.tobytes() == frames[1].color.tobytes()
+    assert frames[0].stats.audited_pixels == 0 and frames[0].stats.bias_error == 0
+
+
+def test_an_audit_finds_the_bias(context):
+    """A lobe that is filtered under one lamp is wrong by far more than it varies: the frame says so, and how much."""
+    texels = np.full((64, 128, 3), 0.05, np.float32)
+    texels[20:23, 40:43] = 500
+    scene = scene_of(context, context.ggx(0.3, (0.9, 0.6, 0.3)), context.environment(texels))
+    truth = rendered(context, scene, samples=4096, seed=9, sampler="combined", **EVERY)
+    frame = rendered(context, scene, samples=16, sampler="filtered", **EVERY)
+    covered = truth.material > 0
+    weights = np.array([0.2126, 0.7152, 0.0722])
+    seen, true = (picture.color[covered][:, :3] @ weights for picture in (frame, truth))
+    error = np.sqrt(np.mean(((seen - true) / (true + 0.01 * true.mean())) ** 2))
+    assert frame.stats.audited_pixels > 100
+    assert frame.stats.bias_error > frame.stats.noise_error
+    # Products of deviations are believed up to 1, and half of the few hundred covered pixels are looked at.
+    assert frame.stats.error == pytest.approx(error, rel=0.5)
