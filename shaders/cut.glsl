@@ -6,8 +6,8 @@ layout(binding = 10) uniform samplerBuffer light_parts;
 const int part_size = 1 + LIGHT_LAYERS;
 layout(std140, binding = 0) uniform Trunk { vec4 trunk[2 * TRUNK_PARTS]; };
 
-// A part is halved further where its own error by the formula above is so many times what the cut was made for. Where the horizon cuts
-// it, it may be brighter than at its centre, so many times.
+// A part is halved further where, by the lobe at its centre, it errs so many times as much as the cut was made for (2 to 8 do about
+// alike: fewer parts for more error). Where the horizon cuts it, it may be brighter than at its centre, so many times.
 const float surprising = 5.0, horizon_doubt = 8.0;
 
 // RGB; size: the parts that the cut is to have, about. coarser: the luminance of a cut of half as many.

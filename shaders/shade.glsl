@@ -51,8 +51,12 @@ vec3 middle_above(vec3 wi, float sine) { return wi.z < sine ? normalize(vec3(wi.
 #include "cut.glsl"
 #endif
 
-const float most_doubt = 0.5;  // that the coarser cut casts on the finer, in parts of what the pixel shows: it may have hit a peak
 const uint unfinished = 0x80000000u;
+
+#if defined(SAMPLER_CUT)
+// The doubt that the coarser cut may cast on the finer, in parts of what the pixel shows: it alone may have hit a peak.
+const float most_doubt = 0.5;
+#endif
 
 // Sum over n samples of the lobe of their values (RGB) and of their squared luminances. footprints: parts of the lobe that its samples
 // stand for. share: of all samples for each of these.

@@ -21,7 +21,7 @@ constexpr double tolerance_share = 1.2, least_tolerance = 0.03, most_tolerance =
 // as its fourth power, that of noise as the samples: time is least where the former is some quarter of the whole.
 constexpr double interpolation_share = 0.3, most_interpolation = 0.5;
 // Rounds aim below what was asked, by what the estimate may miss; a round that comes this near is the last.
-constexpr double aim = 0.88, good_enough = 0.96;
+constexpr double aim = 0.83, good_enough = 0.93;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 1;
 constexpr uint32_t most_rounds = 8;

@@ -45,15 +45,15 @@ struct Frame::Job {
     const std::shared_ptr<Result> result;
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
-    passes::Covered covered;
-    passes::Counts counts;
-    passes::ShadingList list;    // of the last round
-    uint64_t samples = 0;        // of the picture as it is
-    std::vector<uint32_t> counts_before;  // samples of each pixel in the round before
-    RoundCost cost;              // of the last round
-    Audit audit;
-    double audited = 0;          // part of the pixels
-    double done = 0, part = 0;   // of the progress: before this round, and the round's own
+    passes::Covered covered{};
+    passes::Counts counts{};
+    passes::ShadingList list{};              // of the last round
+    uint64_t samples = 0;                    // of the picture as it is
+    std::vector<uint32_t> counts_before{};   // samples of each pixel in the round before
+    RoundCost cost{};                        // of the last round
+    Audit audit{};
+    double audited = 0;                      // part of the pixels
+    double done = 0, part = 0;               // of the progress: before this round, and the round's own
 
     void report(double fraction) const {
         if (progress && progress(std::min(done + part * fraction, 1.0)))
@@ -72,7 +72,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     const gl::Functions& gl = device_->gl();
     if (sequence_ == nullptr) sequence_ = std::make_unique<passes::SequenceTable>(gl);
     const Scene::Slots slots = scene.slots();
-    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots), {}, {}, {}, {}};
+    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots)};
     Result& next = *job.result;
     next.settings = settings;
     next.stats.width = width_;

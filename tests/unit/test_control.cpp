@@ -147,7 +147,7 @@ void noise_asks_for_samples_and_interpolation_for_levels(void**) {
 // Few witnesses may see an error by chance: while there is noise to blame, a tile's are not believed alone.
 void a_single_witness_is_doubted_while_there_is_noise(void**) {
     const Settings settings = asking("target_error", 0.05);
-    const double allowed = 0.7 * 0.044 * 0.044;  // noise, as Control shares it
+    const double allowed = 0.7 * 0.0415 * 0.0415;  // noise, as Control shares it
     for (const bool noisy : {true, false}) {
         Control control(settings, {1520, 1, 1}, 2, {}, 0);
         control.plan(some_histogram(), 0);
