@@ -58,6 +58,7 @@ def test_no_background_no_pass(context, sphere):
 
 def test_rounds_repeat_passes_and_add_none(context, sphere):
     frame = rendered(context, sphere, time_budget=400)
+    frame.render(sphere)  # the first time, tables and shaders take what there is
     assert frame.stats.rounds == 2
     once = passes(rendered(context, sphere, samples=16))
     assert passes(frame) == once

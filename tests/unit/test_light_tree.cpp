@@ -51,10 +51,11 @@ void parts_hold_all_light_above_the_ceilings(void**) {
             for (const uint32_t layer : {0u, 3u}) {
                 const Vec3 expected = light_above(map, sampler, lookup, layer);
                 // Both quadratures cut texels evenly: nearest lookups they integrate exactly, but for where they take the sine of the
-                // polar angle; linear ones to the second order of a fourth of a texel, which noise averages.
+                // polar angle. Of linear ones, what lies above a ceiling goes with the square of the radiance where that is low: of the square
+                // of a linear function between two texels, cells of half a texel miss a sixteenth at most.
                 for (const uint32_t depth : {0u, 1u, LightTree::depth}) {
                     const Vec3 found = all_flux(tree, depth, layer);
-                    for (int c = 0; c < 3; ++c) check_close("flux over expected", found[c] / expected[c], 1, 5e-3);
+                    for (int c = 0; c < 3; ++c) check_close("flux over expected", found[c] / expected[c], 1, lookup == Lookup::nearest ? 1e-3 : 1.0 / 16);
                 }
             }
         }
