@@ -80,12 +80,13 @@ const float variance_power = 0.5;
 // Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
 // sqrt(area * variance), the area being that which the pixel is interpolated over. Constant variance (section 2.4):
 // N proportional to the variance.
-int share(float variance, int level) {
+// surplus: how many times more the pixel's own samples varied than that; they know what footprints leave.
+int share(float variance, float surplus, int level) {
     if (variance <= 0.0) return 0;
 #if defined(ALLOCATION_CONSTANT_VARIANCE)
-    float octave = log2(variance);
+    float octave = log2(variance * surplus);
 #else
-    float octave = variance_power * log2(variance) + float(level);
+    float octave = variance_power * log2(variance) + 0.5 * log2(surplus) + float(level);
 #endif
     return clamp(int(round(octave)) + BINS / 2, 0, BINS - 1);
 }
@@ -114,13 +115,14 @@ void main() {
     int least;
     float variance;
     around(at, level, least, variance);
-    if (former && surprise > 0.0) variance = max(variance, surprise * measured_variance(at));
+    float surplus = 1.0;
+    if (former && surprise > 0.0 && variance > 0.0) surplus = max(surprise * measured_variance(at) / variance, 1.0);
     bool chosen = hash((uint(at.y) << 16 | uint(at.x)) ^ hash(seed)) < witnesses;
     bool interpolate = level < coarsest_level && least > level && (chosen || !former);
     if (interpolate) interpolate = has_sound_parents(at, level, float(own));
     if (interpolate && !chosen)
         imageStore(decisions, at, uvec4(interpolate_it));
     else
-        shade(at, material, share(variance, min(level, int(own))), former, interpolate);
+        shade(at, material, share(variance, surplus, min(level, int(own))), former, interpolate);
 #endif
 }

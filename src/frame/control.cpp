@@ -39,7 +39,7 @@ constexpr double trusted_noise = 3, blameless_noise = 1.25;
 constexpr double prior_witnesses = 4;
 // A round that did not suffice, though no level was at fault, is followed by one of at most this part of its noise.
 // And of no less than that other part: the noise of few samples is itself known badly, often far too high.
-constexpr double least_progress = 0.7, most_progress = 0.1;
+constexpr double least_progress = 0.7, most_progress = 0.25;
 // Witnesses that tell, and the part of pixels that cost little.
 constexpr double telling_witnesses = 256, cheap_witnesses = 1.0 / 16;
 // Part of the time that the first of two rounds may take, and the least part for which another is worth its lists.

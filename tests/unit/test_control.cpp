@@ -138,7 +138,8 @@ void noise_asks_for_samples_and_interpolation_for_levels(void**) {
     assert_true(control.again(estimate_of(0.2 * 0.2, 0), {}));
     assert_true(control.scales()[0] == scale);
     const Budget second = control.plan(some_histogram(), 0);
-    assert_true(second[33] > 4 * first[33]);  // a sixteenth of the noise by four times the samples or more
+    // To a quarter of the noise at most in one round: by four times the samples, less what stratified ones gain.
+    assert_true(second[33] > 3 * first[33] && second[33] <= 4 * first[33]);
     assert_true(control.again(estimate_of(0.02 * 0.02, 0.1 * 0.1), {}));
     assert_true(control.scales()[0] > scale);
     assert_true(control.scales()[1] == scale);  // where no witness saw any error
