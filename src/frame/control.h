@@ -53,7 +53,7 @@ public:
     const Pace& pace() const { return pace_; }
     // Coarser levels, where the time that is left does not last for so many pixels; true: they have changed. Before the first round.
     bool coarsen(const Histogram& histogram, double elapsed);
-    // Samples of each bin in this round, those of former rounds included; elapsed: milliseconds since the frame began.
+    // Samples of each bin in this round, which draws anew what has a quarter less; elapsed: milliseconds since the frame began.
     const Budget& plan(const Histogram& histogram, double elapsed);
     // Whether another round is needed after what the last one gave.
     bool again(const ErrorEstimate& estimate, const RoundCost& cost);
