@@ -6,26 +6,28 @@ layout(binding = 10) uniform samplerBuffer light_parts;
 const int part_size = 1 + LIGHT_LAYERS;
 layout(std140, binding = 0) uniform Trunk { vec4 trunk[2 * TRUNK_PARTS]; };
 
-// A part is halved further where, by the lobe at its centre, it errs so many times as much as the cut was made for (2 to 8 do about
-// alike: fewer parts for more error). Where the horizon cuts it, it may be brighter than at its centre, so many times.
-const float surprising = 5.0, horizon_doubt = 8.0;
+// A part is halved further where, by the lobe at its centre, it alone brings more of what the pixel may expect than so many average
+// parts; among few parts, more than all that is expected.
+const float surprising = 16.0;
 
 // RGB; size: the parts that the cut is to have, about. coarser: the luminance of a cut of half as many.
 vec3 light_above(Pixel pixel, float size, out float coarser) {
     // Halved d times, a part errs 2^-d times as much; errors are least together where d follows the square root of what they are.
-    float wishes[TRUNK_PARTS], sum = 0.0;
+    float wishes[TRUNK_PARTS], sum = 0.0, expected = 0.0;
     uint seen[TRUNK_PARTS], seen_count = 0u;
     for (int k = 0; k < TRUNK_PARTS; ++k) {
         vec4 part = trunk[2 * k];
         vec3 wi = part.xyz * pixel.frame;
         if (may_be_above(wi, part.w)) {
-            float wish = sqrt(trunk[2 * k + 1].w * lobe_importance(pixel.view, middle_above(wi, part.w)));
+            vec4 flux = trunk[2 * k + 1];
+            float importance = lobe_importance(pixel.view, middle_above(wi, part.w)), wish = sqrt(flux.w * importance);
             wishes[seen_count] = wish;
             seen[seen_count++] = uint(k);
             sum += wish;
+            expected += luminance(flux.rgb) * importance;
         }
     }
-    float scale = sum > 0.0 ? size / sum : 0.0;
+    float scale = sum > 0.0 ? size / sum : 0.0, too_much = min(surprising / size, 1.0) * expected;
     vec3 light = vec3(0);
     float usual = importance_albedo(pixel.view) / (2.0 * pi);  // the mean of the lobe over its hemisphere
     // One loop over all parts of both cuts, so that neighbours run equally long. place, depth: of a part in its heap; wanted: the
@@ -52,8 +54,8 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
         }
         vec4 flux = layer < LIGHT_LAYERS ? texelFetch(light_parts, index + 1 + layer) : vec4(0);
         float brightness = luminance(value);
-        if (abs(wi.z) < part.w) brightness = horizon_doubt * max(brightness, usual);
-        bool surprises = scale * sqrt(flux.w * brightness) > surprising;
+        if (abs(wi.z) < part.w) brightness = max(brightness, usual);  // the horizon cuts it
+        bool surprises = too_much > 0.0 && luminance(flux.rgb) * brightness > too_much;
         // The coarser cut has the parts at which this one starts; of one that surprises, its halves.
         if (depth == start) halved = surprises;
         if (depth == start + uint(halved)) coarser += luminance(value * flux.rgb);

@@ -70,7 +70,6 @@ void Frame::render(const Scene& scene, const Progress& progress) {
         throw Error(LB_ERROR_INVALID_STATE, text("accumulate is ", settings.accumulate(),
                                                  "; a frame with a target_error or a time_budget needs 1"));
     const gl::Functions& gl = device_->gl();
-    if (sequence_ == nullptr) sequence_ = std::make_unique<passes::SequenceTable>(gl);
     const Scene::Slots slots = scene.slots();
     Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots)};
     Result& next = *job.result;
@@ -114,8 +113,7 @@ void Frame::finish(Job* job) const {
     stats.bent_normals = job->counts.bent;
     stats.samples = job->samples;
     stats.device_bytes = job->scene.device_bytes() + next.gbuffer.bytes() + job->covered.entries.bytes() +
-                         (next.prediction ? next.prediction->bytes() : 0) + next.shading.bytes() + job->list.entries.bytes() +
-                         sequence_->buffer.bytes();
+                         (next.prediction ? next.prediction->bytes() : 0) + next.shading.bytes() + job->list.entries.bytes();
     stats.milliseconds = next.plan.total_milliseconds();
     stats.bandwidth_milliseconds =
         next.plan.milliseconds_of({"environment", "bandwidth", "probe", "audit", "pyramids", "classify", "list", "estimate"});
@@ -176,7 +174,7 @@ void Frame::shade(Job* job, uint32_t seed) const {
     const auto drawn = [&](uint64_t samples) {
         job->report(double(samples) / double(std::max<uint64_t>(list.total_samples, 1)));
     };
-    passes::shade(*device_, job->scene, job->slots, settings, seed, *sequence_, list, next.stats.rounds == 1, next.gbuffer,
+    passes::shade(*device_, job->scene, job->slots, settings, seed, list, next.stats.rounds == 1, next.gbuffer,
                   next.shading, drawn);
     next.plan.finished("shade", text(list.pixels, " pixels in ", job->slots.materials.size(), " materials"),
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
@@ -227,7 +225,7 @@ void Frame::audit(Job* job, Forecast* forecast) const {
         next.shading.clear(device_->gl());
         next.shading.decide_all(device_->gl());
         const passes::ShadingList list = passes::even_list(*device_, pixels_of_slot, samples);
-        passes::shade(*device_, job->scene, job->slots, own, seed, *sequence_, list, true, next.gbuffer, next.shading,
+        passes::shade(*device_, job->scene, job->slots, own, seed, list, true, next.gbuffer, next.shading,
                       [&](uint64_t) { job->report(0); });
         next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
         next.shading.spread.read(0, GL_RG, GL_FLOAT, spread.size() * sizeof(float), spread.data());

@@ -61,7 +61,6 @@ private:
 
     gl::DevicePtr device_;
     uint32_t width_, height_;
-    std::unique_ptr<passes::SequenceTable> sequence_;
     std::shared_ptr<const Result> result_;
     Pace pace_;  // of this frame's last rounds
 };

@@ -69,8 +69,8 @@ const lb_setting_info table[place_count] = {
               "the BRDF, half from the map, by the balance heuristic (Veach 1997); unbiased. filtered: from the BRDF, each looking up "
               "the mean of the map over the directions that it stands for (Krivanek and Colbert 2008); biased likewise. brdf: the "
               "papers'; unbiased. A reference always samples the BRDF."),
-    choice_of("sequence", "sobol|random", "sobol",
-              "Points of an adaptive frame: a scrambled (0,2)-sequence, or random numbers. A reference is always random."),
+    choice_of("sequence", "lattice|random", "lattice",
+              "Points of an adaptive frame: a lattice that each pixel shifts, or random numbers. A reference is always random."),
     choice_of("brdf_lookup", "nearest|linear", "nearest", "Lookup in a tabulated BRDF."),
     choice_of("environment_lookup", "linear|nearest", "linear", "Lookup in the environment's map."),
     choice_of("background", "none|environment", "none", "What pixels that see no mesh show."),
@@ -168,7 +168,7 @@ Allocation Settings::allocation() const {
     return values_[place_allocation] == 0 ? Allocation::least_error : Allocation::constant_variance;
 }
 Sequence Settings::sequence() const {
-    return values_[place_sequence] == 0 && method() == Method::adaptive ? Sequence::sobol : Sequence::random;
+    return values_[place_sequence] == 0 && method() == Method::adaptive ? Sequence::lattice : Sequence::random;
 }
 Sampler Settings::sampler() const {
     return method() == Method::adaptive ? Sampler(int(values_[place_sampler])) : Sampler::brdf;

@@ -15,7 +15,7 @@ namespace lightband {
 
 enum class Method { adaptive, reference };
 enum class Variance { moments, printed };
-enum class Sequence { sobol, random };
+enum class Sequence { lattice, random };
 enum class Sampler { cut, combined, filtered, brdf };
 
 class Settings {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "passes/dispatch.h"
-#include "sampling/sequence.h"
 
 namespace lightband::passes {
 namespace {
@@ -65,16 +64,8 @@ void bind_sampler(const gl::Functions& gl, const Light& light, const Material& m
 
 }  // namespace
 
-SequenceTable::SequenceTable(const gl::Functions& gl) {
-    std::vector<SequencePoint> points(part_samples);
-    for (uint32_t i = 0; i < part_samples; ++i) points[i] = sequence_point(i);
-    buffer = gl::Buffer(gl, points.size() * sizeof(SequencePoint), points.data());
-    texture = gl::Texture::of_buffer(gl, GL_RG32UI, buffer);
-}
-
 void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t seed,
-           const SequenceTable& sequence, const ShadingList& list, bool first_round, const GBuffer& gbuffer,
-           const Shading& target, const Drawn& drawn) {
+           const ShadingList& list, bool first_round, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn) {
     const gl::Functions& gl = device.gl();
     uint64_t done = 0;
     for (const ShadingList::Part& part : list.parts) {
@@ -89,7 +80,6 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         bind_texture(gl, 5, gbuffer.position);
         bind_texture(gl, 6, gbuffer.normal);
         bind_texture(gl, 7, target.decision);
-        bind_texture(gl, 8, sequence.texture);
         bind_sampler(gl, *scene.light, material, settings, seed, program);
         program.use();
         bind_image(gl, 0, target.radiance, GL_RGBA32F);

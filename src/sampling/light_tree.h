@@ -16,7 +16,7 @@ namespace lightband {
 struct Ceilings {
     static constexpr uint32_t count = 8;
     static constexpr double first = 0.5;  // of the map's mean radiance
-    static constexpr double worth = 16;   // measured (docs/decisions/0009): 2 to 32, least error at 16
+    static constexpr double worth = 8;   // measured (docs/decisions/0009): 2 to 32, least error at 16
     static double at(uint32_t layer) { return first * double(1u << 2 * layer); }
     static double part_above(uint32_t layer, double map_density) {
         const double radiance = 4 * pi * map_density;
@@ -36,7 +36,7 @@ struct LightPart {
 
 struct LightTree {
     static constexpr uint32_t trunk_count = 64;  // parts that every cut has, or more parts in their place
-    static constexpr uint32_t depth = 6;         // how often one of them can be halved
+    static constexpr uint32_t depth = 8;         // how often one of them can be halved
     static constexpr uint32_t heap = 2u << depth;
 
     // Of each part of the trunk a heap: its parts after d halvings are those from place 2^d to 2^(d + 1); place 0 is unused. The
