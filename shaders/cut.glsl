@@ -4,7 +4,7 @@
 // src/sampling/light_tree.h, LightPart: a direction, and a flux for each ceiling.
 layout(binding = 10) uniform samplerBuffer light_parts;
 const int part_size = 1 + LIGHT_LAYERS;
-layout(std140, binding = 0) uniform Trunk { vec4 trunk[2 * TRUNK_PARTS]; };
+layout(std140, binding = 0) uniform Trunks { vec4 trunk[2 * (TRUNK_PARTS + COARSE_TRUNK_PARTS)]; };
 
 // A part is halved further where, by the lobe at its centre, it alone brings more of what the pixel may expect than so many average
 // parts; among few parts, more than all that is expected.
@@ -15,7 +15,9 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
     // Halved d times, a part errs 2^-d times as much; errors are least together where d follows the square root of what they are.
     float wishes[TRUNK_PARTS], sum = 0.0, expected = 0.0;
     uint seen[TRUNK_PARTS], seen_count = 0u;
-    for (int k = 0; k < TRUNK_PARTS; ++k) {
+    bool coarse = size < float(COARSE_TRUNK_PARTS);
+    int first = coarse ? TRUNK_PARTS : 0, last = first + (coarse ? COARSE_TRUNK_PARTS : TRUNK_PARTS);
+    for (int k = first; k < last; ++k) {
         vec4 part = trunk[2 * k];
         vec3 wi = part.xyz * pixel.frame;
         if (may_be_above(wi, part.w)) {

@@ -22,6 +22,10 @@ constexpr double samples_for_each = 4;
 // Part of a frame's time.
 constexpr double part_of_time = 0.06;
 
+// The pixels beyond this part, by what they vary, count as the last within it: few that vary far more than foreseen are for a second
+// round to find, where only they get more samples.
+constexpr double usual_part = 0.995;
+
 uint32_t hash(uint32_t value) {
     const uint32_t state = value * 747796405u + 2891336453u, word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
     return (word >> 22) ^ word;
@@ -31,6 +35,15 @@ uint32_t hash(uint32_t value) {
 
 bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part) {
     return hash((y << 16 | x) ^ hash(seed)) < part * 0x1p32;
+}
+
+double Audit::bulk(std::vector<double> squares) {
+    if (squares.empty()) return 0;
+    std::sort(squares.begin(), squares.end());
+    const double most = squares[size_t(double(squares.size() - 1) * usual_part)];
+    double sum = 0;
+    for (const double square : squares) sum += std::min(square, most);
+    return sum;
 }
 
 Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, double samples_per_millisecond) {

@@ -25,6 +25,8 @@ struct Audit {
         uint32_t samples = 0, probe = 0;
     };
     static constexpr uint32_t probe_samples = 64;
+    // The sum of what probed pixels were seen to vary by, squared and relative, less what few of them stand out by.
+    static double bulk(std::vector<double> squares);
     // samples_per_millisecond: of the device, for frames that must not take long.
     static Effort effort(const Settings& settings, double covered_pixels, double samples_per_millisecond);
 };

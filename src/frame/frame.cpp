@@ -234,13 +234,15 @@ void Frame::audit(Job* job, Forecast* forecast) const {
         shade_drawn(settings, effort.probe, settings.seed());
         std::vector<float> prediction(pixels() * 2);
         next.prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
-        double measured = 0, predicted = 0;
+        std::vector<double> squares;
+        double predicted = 0;
         for (const uint32_t at : drawn) {
             const double scale = prediction[2 * at + 1] + dark_part * forecast->mean_radiance;
             if (!(scale > 0)) continue;
-            measured += std::min(std::pow(spread[2 * at] / scale, 2), 1.0);
+            squares.push_back(std::pow(spread[2 * at] / scale, 2));
             predicted += prediction[2 * at] / (scale * scale) / effort.probe;
         }
+        const double measured = Audit::bulk(squares);
         if (predicted > 0 && measured > 0) forecast->correction = measured / predicted;
         next.plan.finished("probe", text(drawn.size(), " pixels, to know how much they vary"), 0, drawn.size() * effort.probe, "samples");
     }

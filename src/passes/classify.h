@@ -37,7 +37,7 @@ struct ShadingList {
 };
 
 // Samples that one invocation draws in one dispatch. A software renderer may end loops after 65,535 iterations (counting inner
-// loops, which the shading loop has not more than eight of; a cut looks at 64 x 255 parts at most).
+// loops, which the shading loop has not more than eight of; a cut looks at 64 x 511 parts at most).
 constexpr uint32_t part_samples = 4096;
 
 // Pixels (y << 16 | x) of each slot, all with the same number of samples; it needs no decisions.

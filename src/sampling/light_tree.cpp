@@ -186,6 +186,29 @@ Block half_of(const Block& block, double side) {
     return half;
 }
 
+// As many runs, or fewer where the light has fewer places, which the blocks are put into the order of.
+std::vector<Run> trunk_of(std::vector<Block>* blocks, uint32_t count) {
+    // The run that spreads most is halved first; the root keeps dim but wide parts from being left for last.
+    const auto urgency = [](const Run& run) { return std::sqrt(run.weight) * run.total_variance(); };
+    const auto less_urgent = [&](const Run& a, const Run& b) { return urgency(a) < urgency(b); };
+    std::priority_queue<Run, std::vector<Run>, decltype(less_urgent)> queue(less_urgent);
+    queue.push(run_of(blocks->data(), blocks->data() + blocks->size()));
+    std::vector<Run> trunk;
+    while (!queue.empty() && queue.size() + trunk.size() < count) {
+        const Run run = queue.top();
+        queue.pop();
+        Run low, high;
+        if (halve(run, &low, &high)) {
+            queue.push(low);
+            queue.push(high);
+        } else {
+            trunk.push_back(run);
+        }
+    }
+    for (; !queue.empty(); queue.pop()) trunk.push_back(queue.top());
+    return trunk;
+}
+
 void fill_heap(const Run& run, uint32_t place, LightPart* heap) {
     heap[place] = part_of(run);
     if (2 * place >= LightTree::heap) return;
@@ -206,29 +229,12 @@ void fill_heap(const Run& run, uint32_t place, LightPart* heap) {
 
 LightTree light_tree(const RgbImage& map, const MapSampler& sampler, Lookup lookup) {
     std::vector<Block> blocks = blocks_of(map, sampler, lookup);
-    // The run that spreads most is halved first; the root keeps dim but wide parts from being left for last.
-    const auto urgency = [](const Run& run) { return std::sqrt(run.weight) * run.total_variance(); };
-    const auto less_urgent = [&](const Run& a, const Run& b) { return urgency(a) < urgency(b); };
-    std::priority_queue<Run, std::vector<Run>, decltype(less_urgent)> queue(less_urgent);
-    queue.push(run_of(blocks.data(), blocks.data() + blocks.size()));
-    std::vector<Run> trunk;
-    while (!queue.empty() && queue.size() + trunk.size() < LightTree::trunk_count) {
-        const Run run = queue.top();
-        queue.pop();
-        Run low, high;
-        if (halve(run, &low, &high)) {
-            queue.push(low);
-            queue.push(high);
-        } else {
-            trunk.push_back(run);
-        }
-    }
-    for (; !queue.empty(); queue.pop()) trunk.push_back(queue.top());
-    trunk.resize(LightTree::trunk_count);
-
     LightTree tree;
-    tree.parts.resize(size_t(LightTree::trunk_count) * LightTree::heap);
-    for (size_t i = 0; i < trunk.size(); ++i) fill_heap(trunk[i], 1, &tree.parts[i * LightTree::heap]);
+    tree.parts.resize(size_t(LightTree::trunk_parts) * LightTree::heap);
+    for (const LightTree::Trunk& own : LightTree::trunks) {
+        const std::vector<Run> trunk = trunk_of(&blocks, own.count);
+        for (size_t i = 0; i < trunk.size(); ++i) fill_heap(trunk[i], 1, &tree.parts[(own.first + i) * LightTree::heap]);
+    }
     return tree;
 }
 

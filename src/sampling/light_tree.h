@@ -35,13 +35,18 @@ struct LightPart {
 };
 
 struct LightTree {
-    static constexpr uint32_t trunk_count = 64;  // parts that every cut has, or more parts in their place
-    static constexpr uint32_t depth = 8;         // how often one of them can be halved
+    // Parts that every cut has, or more parts in their place: a second, coarser trunk for cuts of fewer parts than it has itself.
+    struct Trunk {
+        uint32_t first, count;
+    };
+    static constexpr Trunk trunks[] = {{0, 64}, {64, 32}};
+    static constexpr uint32_t trunk_parts = trunks[0].count + trunks[1].count;
+    static constexpr uint32_t depth = 8;  // how often one of them can be halved
     static constexpr uint32_t heap = 2u << depth;
 
-    // Of each part of the trunk a heap: its parts after d halvings are those from place 2^d to 2^(d + 1); place 0 is unused. The
+    // Of each part of either trunk a heap: its parts after d halvings are those from place 2^d to 2^(d + 1); place 0 is unused. The
     // last ones are empty where the light has fewer places.
-    std::vector<LightPart> parts;  // trunk_count * heap
+    std::vector<LightPart> parts;  // trunk_parts * heap
 };
 
 // Linear lookup lights between texels as a shader does.

@@ -64,7 +64,7 @@ const LightAbove& Light::above(Lookup lookup) const {
         const LightTree tree = light_tree(map_, sampler_, lookup);
         LightAbove above;
         std::vector<float> trunk;
-        for (uint32_t i = 0; i < LightTree::trunk_count; ++i) {
+        for (uint32_t i = 0; i < LightTree::trunk_parts; ++i) {
             const LightPart& part = tree.parts[size_t(i) * LightTree::heap + 1];
             trunk.insert(trunk.end(), {part.direction[0], part.direction[1], part.direction[2], part.sine});
             const LightPart::Flux& flux = part.flux[0];

@@ -21,9 +21,9 @@ Vec3 flux_of(const LightPart& part, uint32_t layer) {
 
 Vec3 direction_of_part(const LightPart& part) { return {part.direction[0], part.direction[1], part.direction[2]}; }
 
-Vec3 all_flux(const LightTree& tree, uint32_t depth, uint32_t layer) {
+Vec3 all_flux(const LightTree& tree, const LightTree::Trunk& trunk, uint32_t depth, uint32_t layer) {
     Vec3 sum(0);
-    for (uint32_t i = 0; i < LightTree::trunk_count; ++i)
+    for (uint32_t i = trunk.first; i < trunk.first + trunk.count; ++i)
         for (uint32_t place = 1u << depth; place < 2u << depth; ++place) sum += flux_of(tree.parts[i * LightTree::heap + place], layer);
     return sum;
 }
@@ -53,10 +53,12 @@ void parts_hold_all_light_above_the_ceilings(void**) {
                 // Both quadratures cut texels evenly: nearest lookups they integrate exactly, but for where they take the sine of the
                 // polar angle. Of linear ones, what lies above a ceiling goes with the square of the radiance where that is low: of the square
                 // of a linear function between two texels, cells of half a texel miss a sixteenth at most.
-                for (const uint32_t depth : {0u, 1u, LightTree::depth}) {
-                    const Vec3 found = all_flux(tree, depth, layer);
-                    for (int c = 0; c < 3; ++c) check_close("flux over expected", found[c] / expected[c], 1, lookup == Lookup::nearest ? 1e-3 : 1.0 / 16);
-                }
+                for (const LightTree::Trunk& trunk : LightTree::trunks)
+                    for (const uint32_t depth : {0u, 1u, LightTree::depth}) {
+                        const Vec3 found = all_flux(tree, trunk, depth, layer);
+                        for (int c = 0; c < 3; ++c)
+                            check_close("flux over expected", found[c] / expected[c], 1, lookup == Lookup::nearest ? 1e-3 : 1.0 / 16);
+                    }
             }
         }
 }
@@ -64,7 +66,7 @@ void parts_hold_all_light_above_the_ceilings(void**) {
 void parts_are_unit_cones_around_their_light(void**) {
     const RgbImage map = noisy_map(64, 32, 5);
     const LightTree tree = light_tree(map, MapSampler(map), Lookup::linear);
-    for (uint32_t i = 0; i < LightTree::trunk_count; ++i)
+    for (uint32_t i = 0; i < LightTree::trunk_parts; ++i)
         for (uint32_t place = 1; place < LightTree::heap; ++place) {
             const LightPart& part = tree.parts[i * LightTree::heap + place];
             if (part.flux[0].spread == 0) continue;
@@ -89,8 +91,9 @@ void a_fine_cut_is_the_integral(void**) {
     Random random(7);
     for (int k = 0; k < 20; ++k) {
         const Vec3 normal = random.direction();
+        const LightTree::Trunk& trunk = LightTree::trunks[k % 2];
         double found = 0, expected = 0;
-        for (uint32_t i = 0; i < LightTree::trunk_count; ++i)
+        for (uint32_t i = trunk.first; i < trunk.first + trunk.count; ++i)
             for (uint32_t place = 1u << LightTree::depth; place < LightTree::heap; ++place) {
                 const LightPart& part = tree.parts[i * LightTree::heap + place];
                 found += std::max(0.0, glm::dot(direction_of_part(part), normal)) * luminance(flux_of(part, 0));
@@ -114,9 +117,11 @@ void one_lamp_is_one_place(void**) {
     const LightTree tree = light_tree(map, MapSampler(map), Lookup::nearest);
     const Vec3 lamp = direction_of(Vec2((x + 0.5) / 128, (y + 0.5) / 64));
     const double expected = 1e6 * 2 * pi / 128 * (std::cos(pi * y / 64) - std::cos(pi * (y + 1) / 64));
-    for (uint32_t depth = 0; depth <= LightTree::depth; ++depth) {
+    for (uint32_t k = 0; k <= 2 * LightTree::depth + 1; ++k) {
+        const uint32_t depth = k / 2;
+        const LightTree::Trunk& trunk = LightTree::trunks[k % 2];
         double all = 0;
-        for (uint32_t i = 0; i < LightTree::trunk_count; ++i)
+        for (uint32_t i = trunk.first; i < trunk.first + trunk.count; ++i)
             for (uint32_t place = 1u << depth; place < 2u << depth; ++place) {
                 const LightPart& part = tree.parts[i * LightTree::heap + place];
                 if (luminance(flux_of(part, 0)) == 0) continue;
@@ -133,7 +138,7 @@ void one_lamp_is_one_place(void**) {
 void a_black_map_has_no_light(void**) {
     const RgbImage map{8, 4, std::vector<float>(3 * 8 * 4, 0), false};
     const LightTree tree = light_tree(map, MapSampler(map), Lookup::linear);
-    assert_int_equal(tree.parts.size(), size_t(LightTree::trunk_count) * LightTree::heap);
+    assert_int_equal(tree.parts.size(), size_t(LightTree::trunk_parts) * LightTree::heap);
     for (const LightPart& part : tree.parts)
         for (const LightPart::Flux& flux : part.flux) assert_true(flux.rgb[0] == 0 && flux.spread == 0);
 }
