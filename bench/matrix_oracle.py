@@ -56,7 +56,7 @@ class Lattice:
         return (sums / self.total - picture[self.rows, self.columns])[self.guarded]
 
 
-def oracle_fractions(frame: lightband.Frame, a: np.ndarray, b: np.ndarray, targets: tuple[float, ...]) -> list[float]:
+def oracle_fractions(frame: lightband.Frame, a: np.ndarray, b: np.ndarray, targets: list[float]) -> list[float]:
     """Fractions of the covered pixels to shade for the target errors, from two independent converged pictures."""
     material, position, normal = frame.material, frame.position.astype(np.float64), frame.normal.astype(np.float64)
     covered = material > 0

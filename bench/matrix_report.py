@@ -186,7 +186,7 @@ rest of the ratio against the reference.
 Dashed curves are extrapolated from one measurement. Every scene: [rivals.csv]({folder}/rivals.csv).
 
 ## Pixels shaded
-The oracle knows the converged picture and leaves out as many pixels as bilinear interpolation allows at the error asked for, all
+The oracle knows the converged picture and leaves out as many pixels as bilinear interpolation allows at the error that we got, all
 of which it spends on interpolation (`bench/matrix_oracle.py`): a bound, not a rival.
 
 {pixels}

@@ -168,5 +168,5 @@ def measure_scene(scenery: Scenery, mesh: str, material: str, environment: str, 
         "reference": fixed_points(scenery, scene, truth, [{"samples": RIVAL_SAMPLES, "method": "reference"}])[0],
         "papers": fixed_points(scenery, scene, truth, [{"samples": RIVAL_SAMPLES, **PAPERS}])[0],
         "peer_points": peer_points(scenery, mesh, material, environment, frame, truth),
-        "oracle": oracle_fractions(frame, truth.a, truth.b, TARGETS),
+        "oracle": oracle_fractions(frame, truth.a, truth.b, [row["got"] for row in asked]),
     }

@@ -22,9 +22,11 @@ constexpr double samples_for_each = 4;
 // Part of a frame's time.
 constexpr double part_of_time = 0.06;
 
-// The pixels beyond this part, by what they vary, count as the last within it: few that vary far more than foreseen are for a second
-// round to find, where only they get more samples.
+// The pixels beyond this part, by what they vary, count as the last within it.
 constexpr double usual_part = 0.995;
+
+// What the spreads do not tell of a squared error, before any audit: nothing, give or take as much as they tell.
+constexpr double expected_bias_doubt = 1;
 
 uint32_t hash(uint32_t value) {
     const uint32_t state = value * 747796405u + 2891336453u, word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
@@ -35,15 +37,6 @@ uint32_t hash(uint32_t value) {
 
 bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part) {
     return hash((y << 16 | x) ^ hash(seed)) < part * 0x1p32;
-}
-
-double Audit::bulk(std::vector<double> squares) {
-    if (squares.empty()) return 0;
-    std::sort(squares.begin(), squares.end());
-    const double most = squares[size_t(double(squares.size() - 1) * usual_part)];
-    double sum = 0;
-    for (const double square : squares) sum += std::min(square, most);
-    return sum;
 }
 
 Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, double samples_per_millisecond) {
@@ -62,6 +55,40 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
     }
     return {std::min(pixels / covered_pixels, most_covered), biased ? uint32_t(std::clamp(samples, fewest, most)) : 0,
             planned ? probe_samples : 0};
+}
+
+void BiasSum::add(double deviation, double own_spread, double other_spread, double most) {
+    const double square = std::clamp(deviation * deviation - own_spread * own_spread - other_spread * other_spread, -most, most);
+    sum_ += square;
+    squares_ += square * square;
+    ++count_;
+}
+
+BiasSum::Bias BiasSum::beyond(double noise) const {
+    if (count_ == 0) return {};
+    const double seen = sum_ / count_, seen_doubt = std::max((squares_ / count_ - seen * seen) / count_, 0.0);
+    const double expected_doubt = std::pow(expected_bias_doubt * noise, 2);
+    if (!(seen_doubt + expected_doubt > 0)) return {};
+    const double weight = expected_doubt / (seen_doubt + expected_doubt);
+    return {std::max(weight * seen, (least_true - 1) * noise), std::sqrt(weight * seen_doubt)};
+}
+
+double probed_correction(const std::vector<Probed>& pixels, bool audited) {
+    if (pixels.empty()) return 1;
+    std::vector<double> squares;
+    for (const Probed& pixel : pixels) squares.push_back(pixel.spread * pixel.spread);
+    const auto last = squares.begin() + ptrdiff_t(double(squares.size() - 1) * usual_part);
+    std::nth_element(squares.begin(), last, squares.end());
+    const double most = *last;
+    double seen = 0, predicted = 0;
+    BiasSum bias;
+    for (const Probed& pixel : pixels) {
+        seen += std::min(pixel.spread * pixel.spread, most) / double(pixels.size());
+        predicted += pixel.variance / double(pixels.size());
+        if (audited) bias.add(pixel.deviation, pixel.spread, pixel.audit_spread, most);
+    }
+    const double error = seen + bias.beyond(seen).mean;
+    return predicted > 0 && error > 0 ? error / predicted : 1;
 }
 
 }  // namespace lightband

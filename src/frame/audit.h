@@ -25,10 +25,42 @@ struct Audit {
         uint32_t samples = 0, probe = 0;
     };
     static constexpr uint32_t probe_samples = 64;
-    // The sum of what probed pixels were seen to vary by, squared and relative, less what few of them stand out by.
-    static double bulk(std::vector<double> squares);
     // samples_per_millisecond: of the device, for frames that must not take long.
     static Effort effort(const Settings& settings, double covered_pixels, double samples_per_millisecond);
 };
+
+// Of a picture's two replicates and an audit's two, either of one against either of the other: the mean over pixels of the products of
+// their deviations has the noise of neither.
+class BiasSum {
+public:
+    // The picture's deviation from the audit, and half the differences of the replicates of both; all relative to what the pixel shows.
+    void add(double deviation, double own_spread, double other_spread, double most = largest_square);
+
+    // What an audit saw of a mean squared error beyond `noise`, which the spreads tell of, each weighed by its doubt; negative where
+    // they tell of more than there is.
+    struct Bias {
+        double mean = 0, deviation = 0;
+    };
+    Bias beyond(double noise) const;
+
+    // A pixel is believed up to an error of as much as it shows: products of few samples' noise go far beyond in both directions, and
+    // one of them would drown the others.
+    static constexpr double largest_square = 1;
+    // Nor may an audit say that there is less than this part of what the spreads tell.
+    static constexpr double least_true = 0.3;
+
+private:
+    double sum_ = 0, squares_ = 0, count_ = 0;
+};
+
+// A pixel that was also drawn as the frame will be. Relative to what it is expected to show.
+struct Probed {
+    double spread, variance;                // variance: as predicted for so many samples
+    double deviation, audit_spread;         // from the audit; 0 where there is none
+};
+
+// The squared error of probed pixels over what was predicted, less what few of them stand out by: those are for a second round to find,
+// where only they get more samples. 1 where nothing can be said.
+double probed_correction(const std::vector<Probed>& pixels, bool audited);
 
 }  // namespace lightband

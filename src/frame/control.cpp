@@ -20,8 +20,9 @@ constexpr double tolerance_share = 1.2, least_tolerance = 0.03, most_tolerance =
 // Share of interpolation in the squared error. Pixels shaded grow about as the scale, the square of interpolation's error falls
 // as its fourth power, that of noise as the samples: time is least where the former is some quarter of the whole.
 constexpr double interpolation_share = 0.3, most_interpolation = 0.5;
-// Rounds aim below what was asked, by what the estimate may miss; a round that comes this near is the last.
-constexpr double aim = 0.83, good_enough = 0.93;
+// Rounds aim below what was asked, by what the estimate may miss. The last is one that is thought to come this near, or, with all that
+// is in doubt, that near.
+constexpr double aim = 0.83, near_enough = 0.87, good_enough = 0.95;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 1;
 constexpr uint32_t most_rounds = 8;
@@ -221,7 +222,7 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     }
     const double careful = std::sqrt(estimate.shading() + estimate.interpolation +
                                      caution * std::hypot(estimate.interpolation_deviation, estimate.bias_deviation));
-    if (careful <= good_enough * target || estimate.error() <= aim * target) return false;
+    if (careful <= good_enough * target || estimate.error() <= near_enough * target) return false;
     choose_witnesses(estimate);
     const double goal = aim * aim * target * target, shading_allowed = (1 - interpolation_share) * goal;
     // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again. What they may have seen

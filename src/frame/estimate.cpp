@@ -28,15 +28,6 @@ double mean_luminance(const RoundPixels& pixels) {
 // that a tiny frame is not believed to be free of noise by luck.
 constexpr double prior_pixels = 8;
 
-// A witness is believed up to an error of as much as the pixel shows: products of few samples' noise go far beyond in both directions,
-// and one of them would drown the others.
-constexpr double largest_square = 1;
-
-// What the spreads do not tell of a squared error, before any audit: nothing, give or take as much as they tell.
-constexpr double expected_bias_doubt = 1;
-// Nor may an audit say that there is less than this part of what they tell.
-constexpr double least_true = 0.3;
-
 // Squared errors of the witnesses of one slot.
 struct WitnessSums {
     double sum = 0, squares = 0;
@@ -55,29 +46,17 @@ double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
     return mean + dark_part * mean_luminance;
 }
 
-// Of a picture's two replicates and the audit's two, either of one against either of the other: the mean of the products of their
-// deviations has the noise of neither.
 void add_bias(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
-    double sum = 0, squares = 0, count = 0;
+    BiasSum sum;
     for (size_t k = 0; k < audit.at.size(); ++k) {
         const size_t i = audit.at[k];
         const double scale = scale_of(pixels, i, estimate->mean_luminance);
         if (!(scale > 0)) continue;
-        const double deviation = luminance_at(pixels, i) - audit.mean[k], own = pixels.spread[2 * i] / std::sqrt(frames), other = audit.spread[k];
-        const double square =
-            std::clamp((deviation * deviation - own * own - other * other) / (scale * scale), -largest_square, largest_square);
-        sum += square;
-        squares += square * square;
-        ++count;
+        sum.add((luminance_at(pixels, i) - audit.mean[k]) / scale, pixels.spread[2 * i] / std::sqrt(frames) / scale, audit.spread[k] / scale);
     }
-    if (count == 0) return;
-    // What is expected before looking, and what is seen, each by the inverse square of its doubt.
-    const double seen = sum / count, seen_doubt = std::max((squares / count - seen * seen) / count, 0.0);
-    const double expected_doubt = std::pow(expected_bias_doubt * estimate->noise, 2);
-    if (!(seen_doubt + expected_doubt > 0)) return;
-    const double weight = expected_doubt / (seen_doubt + expected_doubt);
-    estimate->bias = std::max(weight * seen, (least_true - 1) * estimate->noise);
-    estimate->bias_deviation = std::sqrt(weight * seen_doubt);
+    const BiasSum::Bias bias = sum.beyond(estimate->noise);
+    estimate->bias = bias.mean;
+    estimate->bias_deviation = bias.deviation;
 }
 
 }  // namespace
@@ -118,7 +97,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         }
         if (!is_witness(pixels.decision[i])) continue;
         ++own.witnesses;
-        const double square = std::clamp(pixels.spread[2 * i + 1] / (scale * scale), -largest_square, largest_square);
+        const double square = std::clamp(pixels.spread[2 * i + 1] / (scale * scale), -BiasSum::largest_square, BiasSum::largest_square);
         witnesses[slot].sum += square;
         witnesses[slot].squares += square * square;
         ++tile.witnesses;
@@ -150,7 +129,7 @@ void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frame
     add_bias(pixels, audit, frames, estimate);
     estimate->noise /= frames;
     estimate->stratification /= frames;
-    estimate->bias = std::max(estimate->bias, (least_true - 1) * estimate->noise);
+    estimate->bias = std::max(estimate->bias, (BiasSum::least_true - 1) * estimate->noise);
 }
 
 std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,

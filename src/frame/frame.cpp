@@ -204,59 +204,79 @@ void Frame::measure(Job* job) const {
                                         std::sqrt(next.estimate.interpolation), ", by bias ", std::sqrt(std::max(next.estimate.bias, 0.0))), 0, this->pixels(), "pixels");
 }
 
-// Shades some pixels without bias, and by the frame's own sampler, into targets that the rounds will write anew.
+// Pixels drawn by chance, and shaded all alike.
+struct Frame::Drawn {
+    std::vector<uint32_t> at;                            // y * width + x
+    std::vector<std::vector<uint32_t>> pixels_of_slot;   // y << 16 | x
+};
+
+Frame::Drawn Frame::draw(const Job& job, double part) const {
+    const Result& next = *job.result;
+    std::vector<uint8_t> material(pixels());
+    next.gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
+    Drawn drawn;
+    drawn.pixels_of_slot.resize(job.slots.materials.size());
+    for (uint32_t y = 0; y < height_; ++y)
+        for (uint32_t x = 0; x < width_; ++x) {
+            const uint32_t at = y * width_ + x;
+            if (material[at] == 0 || !is_drawn(x, y, settings.seed(), part)) continue;
+            drawn.pixels_of_slot[next.slot_of[material[at] - 1u]].push_back(y << 16 | x);
+            drawn.at.push_back(at);
+        }
+    return drawn;
+}
+
+// Into targets that the rounds will write anew.
+Audit Frame::shade_drawn(const Job& job, const Drawn& drawn, const Settings& own, uint32_t samples, uint32_t seed) const {
+    const Result& next = *job.result;
+    next.shading.clear(device_->gl());
+    next.shading.decide_all(device_->gl());
+    const passes::ShadingList list = passes::even_list(*device_, drawn.pixels_of_slot, samples);
+    passes::shade(*device_, job.scene, job.slots, own, seed, list, true, next.gbuffer, next.shading, [&](uint64_t) { job.report(0); });
+    std::vector<float> radiance(pixels() * 4), spread(pixels() * 2);
+    next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
+    next.shading.spread.read(0, GL_RG, GL_FLOAT, spread.size() * sizeof(float), spread.data());
+    Audit seen;
+    seen.at = drawn.at;
+    for (const uint32_t at : drawn.at) {
+        seen.mean.push_back(float(luminance(Vec3(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]))));
+        seen.spread.push_back(spread[2 * at]);
+    }
+    return seen;
+}
+
+// Some pixels without bias, and by the frame's own sampler.
 void Frame::audit(Job* job, Forecast* forecast) const {
     Result& next = *job->result;
     const Audit::Effort effort = Audit::effort(settings, forecast->covered, pace_.samples_per_millisecond);
     if (effort.part == 0) return;
-    std::vector<uint8_t> material(pixels());
-    next.gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
-    std::vector<std::vector<uint32_t>> pixels_of_slot(job->slots.materials.size());
-    std::vector<uint32_t> drawn;
-    for (uint32_t y = 0; y < height_; ++y)
-        for (uint32_t x = 0; x < width_; ++x) {
-            const uint32_t at = y * width_ + x;
-            if (material[at] == 0 || !is_drawn(x, y, settings.seed(), effort.part)) continue;
-            pixels_of_slot[next.slot_of[material[at] - 1u]].push_back(y << 16 | x);
-            drawn.push_back(at);
-        }
-    std::vector<float> radiance(pixels() * 4), spread(pixels() * 2);
-    const auto shade_drawn = [&](const Settings& own, uint32_t samples, uint32_t seed) {
-        next.shading.clear(device_->gl());
-        next.shading.decide_all(device_->gl());
-        const passes::ShadingList list = passes::even_list(*device_, pixels_of_slot, samples);
-        passes::shade(*device_, job->scene, job->slots, own, seed, list, true, next.gbuffer, next.shading,
-                      [&](uint64_t) { job->report(0); });
-        next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
-        next.shading.spread.read(0, GL_RG, GL_FLOAT, spread.size() * sizeof(float), spread.data());
-    };
-    if (effort.probe > 0) {
-        shade_drawn(settings, effort.probe, settings.seed());
-        std::vector<float> prediction(pixels() * 2);
-        next.prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
-        std::vector<double> squares;
-        double predicted = 0;
-        for (const uint32_t at : drawn) {
-            const double scale = prediction[2 * at + 1] + dark_part * forecast->mean_radiance;
-            if (!(scale > 0)) continue;
-            squares.push_back(std::pow(spread[2 * at] / scale, 2));
-            predicted += prediction[2 * at] / (scale * scale) / effort.probe;
-        }
-        const double measured = Audit::bulk(squares);
-        if (predicted > 0 && measured > 0) forecast->correction = measured / predicted;
-        next.plan.finished("probe", text(drawn.size(), " pixels, to know how much they vary"), 0, drawn.size() * effort.probe, "samples");
-    }
+    const Drawn drawn = draw(*job, effort.part);
     if (effort.samples > 0) {
         Settings unbiased = settings;
         unbiased.set_choice("sampler", "combined");
-        shade_drawn(unbiased, effort.samples, audit_seed);
-        for (const uint32_t at : drawn) {
-            job->audit.at.push_back(at);
-            job->audit.mean.push_back(float(luminance(Vec3(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]))));
-            job->audit.spread.push_back(spread[2 * at]);
-        }
+        job->audit = shade_drawn(*job, drawn, unbiased, effort.samples, audit_seed);
         job->audited = effort.part;
-        next.plan.finished("audit", text(drawn.size(), " pixels without bias, to know the sampler's"), 0, drawn.size() * effort.samples,
+        next.plan.finished("audit", text(drawn.at.size(), " pixels without bias, to know the sampler's"), 0,
+                           drawn.at.size() * effort.samples, "samples");
+    }
+    if (effort.probe > 0) {
+        const Audit seen = shade_drawn(*job, drawn, settings, effort.probe, settings.seed());
+        std::vector<float> prediction(pixels() * 2);
+        next.prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
+        std::vector<Probed> probed;
+        for (size_t k = 0; k < drawn.at.size(); ++k) {
+            const float *expected = &prediction[2 * drawn.at[k]], *variance = expected++;
+            const double scale = *expected + dark_part * forecast->mean_radiance;
+            if (!(scale > 0)) continue;
+            Probed pixel{seen.spread[k] / scale, *variance / (scale * scale) / effort.probe, 0, 0};
+            if (effort.samples > 0) {
+                pixel.deviation = (seen.mean[k] - job->audit.mean[k]) / scale;
+                pixel.audit_spread = job->audit.spread[k] / scale;
+            }
+            probed.push_back(pixel);
+        }
+        forecast->correction = probed_correction(probed, effort.samples > 0);
+        next.plan.finished("probe", text(drawn.at.size(), " pixels, to know how much they vary"), 0, drawn.at.size() * effort.probe,
                            "samples");
     }
 }

@@ -46,8 +46,11 @@ public:
 private:
     struct Result;
     struct Job;  // a render call on its way
+    struct Drawn;
     const Result& result() const;
     Forecast predict(Job* job) const;
+    Drawn draw(const Job& job, double part) const;
+    Audit shade_drawn(const Job& job, const Drawn& drawn, const Settings& own, uint32_t samples, uint32_t seed) const;
     void audit(Job* job, Forecast* forecast) const;
     void rounds(Job* job, const Forecast& forecast);
     void decide(Job* job, const Control& control, const Forecast& forecast) const;

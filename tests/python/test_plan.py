@@ -63,7 +63,7 @@ def test_rounds_repeat_passes_and_add_none(context, sphere):
     once = passes(rendered(context, sphere, samples=16))
     assert passes(frame) == once
     # An error that is asked for is planned from a probe.
-    assert passes(rendered(context, sphere, target_error=0.05)) == [*once[:4], "probe", *once[4:]]
+    assert passes(rendered(context, sphere, target_error=0.05)) == [*once[:5], "probe", *once[5:]]
 
 
 def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):

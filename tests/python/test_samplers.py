@@ -43,14 +43,15 @@ def test_a_constant_map_has_no_footprint(context):
 def test_a_mirror_looks_the_map_up_as_it_is(context, smooth):
     """A footprint below a texel of 128 x 128 (8e-4 steradians at most) is a lookup of the map itself.
 
-    GGX of alpha a draws densities below p with a chance of 2 a sqrt(pi p): with eight samples for each replicate, footprints of
-    1 / (8 p) reach a texel for 0.5 % of the samples, and 7 % of the pixels have one. All others keep every bit.
+    GGX of alpha a draws densities below p with a chance of 2 a sqrt(pi p): footprints of 1 / (16 p) reach a texel for 0.3 % of the
+    samples, and 5 % of the pixels have one. The others differ by where their points lie, within a peak some 1e-4 radians wide.
     """
     scene = scene_of(context, context.ggx(1e-4, (0.9, 0.9, 0.9)), smooth)
     plain, filtered = (rendered(context, scene, samples=16, sampler=sampler, **EVERY) for sampler in ("brdf", "filtered"))
     covered = plain.material > 0
-    assert (plain.color[covered] != filtered.color[covered]).any(axis=-1).mean() < 0.15
-    assert deviation(filtered, plain) < 0.05  # 7 % of the pixels, one of whose 16 samples is blurred
+    apart = abs(filtered.color[covered] / plain.color[covered] - 1).max(axis=-1)
+    assert (apart > 1e-3).mean() < 0.15
+    assert deviation(filtered, plain) < 0.05  # 5 % of the pixels, one of whose 16 samples is blurred
 
 
 @pytest.mark.parametrize("sampler, unbiased", [("filtered", "brdf"), ("cut", "combined")])
@@ -69,11 +70,12 @@ def test_bias_takes_noise_away_and_falls(context, smooth, sampler, unbiased):
 def test_a_cut_of_a_constant_map_is_the_constant(context):
     """Below the soft ceilings lies a part of the light, above them the rest: together the furnace's 1, at any roughness.
 
-    The cut's parts are cells of the sphere, and the cosine is taken at their middles: a midpoint rule of some 30 cells a
-    hemisphere errs by its second order, (0.4 radians)^2 / 24 of the half of the light that lies above.
+    The cut's parts are cells of the sphere, and the cosine is taken at their middles. Of 16 samples' cut a cell is w = 0.6 radians
+    wide, and one that the horizon halves is taken to send nothing of its w^3 / (8 pi) = 0.9 %, or twice that: of some ten around the
+    horizon, half at most either way. What lies above is half of the light. Of 1,024 samples' it is 0.1 radians wide.
     """
     scene = scene_of(context, context.lambert(1.0), context.environment(np.ones((16, 32, 3), np.float32)))
-    for samples, bound in ((16, 0.02), (1024, 0.002)):
+    for samples, bound in ((16, 0.045), (1024, 0.003)):
         frame = rendered(context, scene, samples=samples, sampler="cut", **EVERY)
         np.testing.assert_allclose(frame.color[frame.material > 0], 1, atol=bound)
 
@@ -126,7 +128,7 @@ def test_tables_are_made_when_they_are_asked_for(context):
              for sampler in ("brdf", "filtered", "combined", "cut")]
     importance = 64 * (16 * 16 + 1) * 4  # of each view, cells and their integral
     points = 65536 * 32 + 64 * 32  # the audits of both biased samplers draw some pixels by the map's points
-    tree = 64 * 128 * (4 + 8 * 4) * 4 + 64 * 32
+    tree = (64 + 32) * (512 * (4 + 8 * 4) * 4 + 32)  # two trunks, each of whose parts has a heap
     assert sizes[1] - sizes[0] == 16 * texels + points + importance
     assert sizes[2] == sizes[1]
     assert sizes[3] - sizes[2] == 8 * 8 * texels + tree
@@ -143,9 +145,9 @@ def test_an_audit_finds_the_bias(context):
     """A lobe that is filtered under one lamp is wrong by far more than its samples tell: the frame says so, and how much."""
     texels = np.full((64, 128, 3), 0.05, np.float32)
     texels[20:23, 40:43] = 500
-    scene = scene_of(context, context.ggx(0.3, (0.9, 0.6, 0.3)), context.environment(texels))
+    scene = scene_of(context, context.ggx(0.1, (0.9, 0.6, 0.3)), context.environment(texels))
     truth = rendered(context, scene, samples=4096, seed=9, sampler="combined", **EVERY)
-    frame = rendered(context, scene, samples=16, sampler="filtered", **EVERY)
+    frame = rendered(context, scene, samples=64, sampler="filtered", **EVERY)
     covered = truth.material > 0
     weights = np.array([0.2126, 0.7152, 0.0722])
     seen, true = (picture.color[covered][:, :3] @ weights for picture in (frame, truth))

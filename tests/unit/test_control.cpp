@@ -203,6 +203,25 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
     }
 }
 
+// Probed pixels whose spreads tell of twice the error that is there: an audit knows better. Two that stand out by a thousandfold change
+// little.
+void a_probe_believes_its_audit(void**) {
+    Random random(16);
+    const double error = 0.01, doubt = 0.003;
+    std::vector<Probed> pixels;
+    for (int i = 0; i < 5000; ++i) {
+        const double audit_spread = doubt * normal(random);
+        pixels.push_back({std::sqrt(2.0) * error * normal(random), error * error / 4, error * normal(random) + doubt * normal(random), audit_spread});
+    }
+    // Means of 5,000 squares of normal deviations are known to 2 %; an audit is given all but a hundredth of the weight.
+    check_close("without an audit", probed_correction(pixels, false), 8, 8 * 0.08);
+    check_close("with one", probed_correction(pixels, true), 4, 4 * 0.12);
+    const double without = probed_correction(pixels, true);
+    for (int i = 0; i < 2; ++i) pixels[size_t(i)].spread = pixels[size_t(i)].deviation = 30 * error;
+    check_close("with two that stand out", probed_correction(pixels, true), without, 0.1 * without);
+    assert_true(probed_correction({}, true) == 1 && probed_correction({{0, 0, 0, 0}}, true) == 1);
+}
+
 void who_is_drawn_among_few_is_among_more(void**) {
     uint32_t few = 0, more = 0;
     std::vector<uint32_t> rows(256);
@@ -280,6 +299,7 @@ int main() {
         cmocka_unit_test(a_single_witness_is_doubted_while_there_is_noise),
         cmocka_unit_test(tiles_count_their_own_witnesses),
         cmocka_unit_test(an_audit_sees_what_the_spreads_do_not),
+        cmocka_unit_test(a_probe_believes_its_audit),
         cmocka_unit_test(who_is_drawn_among_few_is_among_more),
         cmocka_unit_test(an_audit_takes_what_it_may),
         cmocka_unit_test(a_time_is_shared_between_two_rounds),
