@@ -52,8 +52,14 @@ const uint unfinished = 0x80000000u;
 
 #if defined(FILTERED)
 // What a lattice errs, in parts of half the difference of its halves; and a cut, in parts of what it differs from one of half its
-// size: so that the squares of both add up to the squared error (measured on 14 scenes at 16 to 1024 samples, to a third either way).
-const float lattice_share = 0.74, cut_share = 0.55;
+// size: so that the squares of both add up to the squared error (docs/decisions/0009: to a third either way). Halves of random points
+// are independent.
+#if defined(SEQUENCE_RANDOM)
+const float lattice_share = 1.0;
+#else
+const float lattice_share = 0.74;
+#endif
+const float cut_share = 0.55;
 // The doubt that the coarser cut may cast on the finer, in parts of what the pixel shows: it alone may have hit a peak.
 const float most_doubt = 0.5;
 #endif

@@ -22,9 +22,6 @@ constexpr double samples_for_each = 4;
 // Part of a frame's time.
 constexpr double part_of_time = 0.06;
 
-// The pixels beyond this part, by what they vary, count as the last within it.
-constexpr double usual_part = 0.995;
-
 // What the spreads do not tell of a squared error, before any audit: nothing, give or take as much as they tell.
 constexpr double expected_bias_doubt = 1;
 
@@ -57,8 +54,9 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
             planned ? probe_samples : 0};
 }
 
-void BiasSum::add(double deviation, double own_spread, double other_spread, double most) {
-    const double square = std::clamp(deviation * deviation - own_spread * own_spread - other_spread * other_spread, -most, most);
+void BiasSum::add(double deviation, double own_spread, double other_spread) {
+    const double square =
+        std::clamp(deviation * deviation - own_spread * own_spread - other_spread * other_spread, -largest_square, largest_square);
     sum_ += square;
     squares_ += square * square;
     ++count_;
@@ -73,22 +71,14 @@ BiasSum::Bias BiasSum::beyond(double noise) const {
     return {std::max(weight * seen, (least_true - 1) * noise), std::sqrt(weight * seen_doubt)};
 }
 
-double probed_correction(const std::vector<Probed>& pixels, bool audited) {
-    if (pixels.empty()) return 1;
-    std::vector<double> squares;
-    for (const Probed& pixel : pixels) squares.push_back(pixel.spread * pixel.spread);
-    const auto last = squares.begin() + ptrdiff_t(double(squares.size() - 1) * usual_part);
-    std::nth_element(squares.begin(), last, squares.end());
-    const double most = *last;
-    double seen = 0, predicted = 0;
+double probed_error(const std::vector<Probed>& pixels, bool audited) {
+    double seen = 0;
     BiasSum bias;
     for (const Probed& pixel : pixels) {
-        seen += std::min(pixel.spread * pixel.spread, most) / double(pixels.size());
-        predicted += pixel.variance / double(pixels.size());
-        if (audited) bias.add(pixel.deviation, pixel.spread, pixel.audit_spread, most);
+        seen += std::min(pixel.spread * pixel.spread, BiasSum::largest_square) / double(pixels.size());
+        if (audited) bias.add(pixel.deviation, pixel.spread, pixel.audit_spread);
     }
-    const double error = seen + bias.beyond(seen).mean;
-    return predicted > 0 && error > 0 ? error / predicted : 1;
+    return seen + bias.beyond(seen).mean;
 }
 
 }  // namespace lightband

@@ -34,7 +34,7 @@ struct Audit {
 class BiasSum {
 public:
     // The picture's deviation from the audit, and half the differences of the replicates of both; all relative to what the pixel shows.
-    void add(double deviation, double own_spread, double other_spread, double most = largest_square);
+    void add(double deviation, double own_spread, double other_spread);
 
     // What an audit saw of a mean squared error beyond `noise`, which the spreads tell of, each weighed by its doubt; negative where
     // they tell of more than there is.
@@ -55,12 +55,11 @@ private:
 
 // A pixel that was also drawn as the frame will be. Relative to what it is expected to show.
 struct Probed {
-    double spread, variance;                // variance: as predicted for so many samples
-    double deviation, audit_spread;         // from the audit; 0 where there is none
+    double spread;
+    double deviation, audit_spread;  // from the audit; 0 where there is none
 };
 
-// The squared error of probed pixels over what was predicted, less what few of them stand out by: those are for a second round to find,
-// where only they get more samples. 1 where nothing can be said.
-double probed_correction(const std::vector<Probed>& pixels, bool audited);
+// The mean squared error of probed pixels; 0 where there are none.
+double probed_error(const std::vector<Probed>& pixels, bool audited);
 
 }  // namespace lightband

@@ -34,6 +34,8 @@ constexpr double stratified_gain = 1.2;
 // The scale grows with the squared error of interpolation over what is allowed. For a smooth picture the fourth root would do; near
 // edges, where most of it comes from, it falls more slowly. Steps below the least would not be worth a new classification.
 constexpr double growth_power = 0.35, least_growth = 1.1, most_growth = 4;
+// First rounds were seen to leave between half and twice of what a probe foretold for them; a second costs more than some samples.
+constexpr double held_by_first = 0.55;
 // Witnesses are heard where noise is at most so many times what is allowed, and believed without doubt up to the other.
 constexpr double trusted_noise = 3, blameless_noise = 1.25;
 // A tile's few witnesses are joined by so many that saw the frame's mean.
@@ -71,7 +73,7 @@ void Pace::learn(const RoundCost& cost, bool first_round) {
 }
 
 Control::Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed)
-    : settings_(settings), forecast_(forecast), correction_(forecast.correction), pace_(pace) {
+    : settings_(settings), forecast_(forecast), pace_(pace) {
     // Half of the pixels at most, or small frames would not be interpolated.
     witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), cheap_witnesses, 0.5);
     const double goal = aim * settings.target_error();
@@ -102,10 +104,13 @@ double Control::tolerance() const {
     return std::max(most_tolerance, expected_noise_);
 }
 
-// The frame's mean square where every pixel gets as many samples as were probed.
-double Control::probed_noise(const Histogram& histogram) const {
-    const Budget budget(budget_bins, Audit::probe_samples);
-    return std::max(correction_ * predicted_noise(histogram, budget, settings_.allocation()) / forecast_.covered, 1e-12);
+// What shares and samples foretell of the noise is made to agree with the probe where every pixel has as many samples as that; from
+// there the goal is reached by more.
+void Control::heed_probe(const Histogram& histogram) {
+    const double foretold = predicted_noise(histogram, Budget(budget_bins, Audit::probe_samples), settings_.allocation());
+    if (!(forecast_.probed_error > 0) || !(foretold > 0)) return;
+    correction_ = forecast_.probed_error * forecast_.covered / foretold;
+    noise_goal_ = reached_by_more(forecast_.probed_error, held_by_first * noise_goal_ / forecast_.probed_error);
 }
 
 bool Control::coarsen(const Histogram& histogram, double elapsed) {
@@ -124,7 +129,7 @@ const Budget& Control::plan(const Histogram& histogram, double elapsed) {
     histogram_ = histogram;
     const double pixels = std::max(total(histogram), 1.0);
     if (settings_.target_error() > 0) {
-        if (round_ == 1) noise_goal_ = reached_by_more(probed_noise(histogram), noise_goal_ / probed_noise(histogram));
+        if (round_ == 1) heed_probe(histogram);
         budget_ = plan_noise(histogram, noise_goal_ * forecast_.covered / correction_, settings_.max_samples(), settings_.allocation());
     } else if (settings_.time_budget() > 0) {
         const double mean = time_to_shade(elapsed) * pace_.samples_per_millisecond / pixels - Pace::pixel_samples;

@@ -14,7 +14,7 @@ struct Forecast {
     double covered = 0;             // pixels
     double mean_radiance = 0;       // luminance
     double relative_deviation = 0;  // mean of one light sample's standard deviation over the pixel's radiance
-    double correction = 1;          // noise that samples leave over what is predicted, as far as was probed
+    double probed_error = 0;        // mean square that a probe's samples leave of every pixel; 0: not probed
 };
 
 // What a round cost.
@@ -63,7 +63,7 @@ private:
     void choose_witnesses(const ErrorEstimate& estimate);
     bool out_of_time(const RoundCost& cost);
     double time_to_shade(double elapsed) const;
-    double probed_noise(const Histogram& histogram) const;
+    void heed_probe(const Histogram& histogram);
     double first_scale(double elapsed);
 
     const Settings& settings_;
@@ -73,7 +73,7 @@ private:
     Histogram histogram_;
     Budget budget_;
     double noise_goal_ = 0;   // mean square over the covered pixels
-    double correction_ = 0;   // measured noise over predicted
+    double correction_ = 1;   // measured noise over predicted
     double surprise_ = 0;
     double expected_noise_ = 0;  // of a frame that asks for no error
     Pace pace_;

@@ -38,19 +38,15 @@ struct WitnessSums {
 // mean to better than that.
 constexpr double least_expected = 0.5, most_expected = 1.5;
 
-// What a pixel's error is relative to.
-double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
-    double mean = luminance_at(pixels, at);
-    if (!pixels.expected.empty() && pixels.expected[at] > 0)
-        mean = std::clamp(mean, least_expected * pixels.expected[at], most_expected * pixels.expected[at]);
-    return mean + dark_part * mean_luminance;
+double scale_at(const RoundPixels& pixels, size_t at, double mean_luminance) {
+    return scale_of(luminance_at(pixels, at), pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
 }
 
 void add_bias(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
     BiasSum sum;
     for (size_t k = 0; k < audit.at.size(); ++k) {
         const size_t i = audit.at[k];
-        const double scale = scale_of(pixels, i, estimate->mean_luminance);
+        const double scale = scale_at(pixels, i, estimate->mean_luminance);
         if (!(scale > 0)) continue;
         sum.add((luminance_at(pixels, i) - audit.mean[k]) / scale, pixels.spread[2 * i] / std::sqrt(frames) / scale, audit.spread[k] / scale);
     }
@@ -60,6 +56,11 @@ void add_bias(const RoundPixels& pixels, const Audit& audit, uint32_t frames, Er
 }
 
 }  // namespace
+
+double scale_of(double shown, double expected, double mean_luminance) {
+    if (expected > 0) shown = std::clamp(shown, least_expected * expected, most_expected * expected);
+    return shown + dark_part * mean_luminance;
+}
 
 double ErrorEstimate::error() const { return std::sqrt(noise + interpolation + bias); }
 
@@ -85,7 +86,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         ErrorEstimate::Slot& own = result.slots[slot];
         ++own.covered;
         ++covered;
-        const double scale = scale_of(pixels, i, result.mean_luminance);
+        const double scale = scale_at(pixels, i, result.mean_luminance);
         if (!(scale > 0)) continue;  // a frame without light has no error
         const double spread = pixels.spread[2 * i] / scale;
         spreads += spread * spread;
@@ -143,7 +144,7 @@ std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& 
     std::vector<float> errors(pixels.material.size());
     for (size_t i = 0; i < errors.size(); ++i) {
         if (pixels.material[i] == 0) continue;
-        const double scale = scale_of(pixels, i, estimate.mean_luminance);
+        const double scale = scale_at(pixels, i, estimate.mean_luminance);
         if (!(scale > 0)) continue;
         double square = known_better * variance_of_mean(pixels, i) / (scale * scale) + std::max(estimate.bias, 0.0);
         if (is_interpolated(pixels.decision[i])) {

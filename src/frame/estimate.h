@@ -12,6 +12,9 @@ namespace lightband {
 // Relative errors are taken of L + dark_part * mean L (docs/conventions.md, error of a frame).
 constexpr double dark_part = 0.01;
 
+// What a pixel's error is relative to. expected: as predicted; 0 where nothing was.
+double scale_of(double shown, double expected, double mean_luminance);
+
 // What interpolation costs is held against the bandwidth in square tiles of so many pixels a side.
 constexpr uint32_t tile_side = 16;
 constexpr uint32_t tiles_along(uint32_t pixels) { return (pixels + tile_side - 1) / tile_side; }

@@ -265,17 +265,16 @@ void Frame::audit(Job* job, Forecast* forecast) const {
         next.prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
         std::vector<Probed> probed;
         for (size_t k = 0; k < drawn.at.size(); ++k) {
-            const float *expected = &prediction[2 * drawn.at[k]], *variance = expected++;
-            const double scale = *expected + dark_part * forecast->mean_radiance;
+            const double scale = scale_of(seen.mean[k], prediction[2 * drawn.at[k] + 1], forecast->mean_radiance);
             if (!(scale > 0)) continue;
-            Probed pixel{seen.spread[k] / scale, *variance / (scale * scale) / effort.probe, 0, 0};
+            Probed pixel{seen.spread[k] / scale, 0, 0};
             if (effort.samples > 0) {
                 pixel.deviation = (seen.mean[k] - job->audit.mean[k]) / scale;
                 pixel.audit_spread = job->audit.spread[k] / scale;
             }
             probed.push_back(pixel);
         }
-        forecast->correction = probed_correction(probed, effort.samples > 0);
+        forecast->probed_error = probed_error(probed, effort.samples > 0);
         next.plan.finished("probe", text(drawn.at.size(), " pixels, to know how much they vary"), 0, drawn.at.size() * effort.probe,
                            "samples");
     }

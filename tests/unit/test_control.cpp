@@ -203,23 +203,34 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
     }
 }
 
-// Probed pixels whose spreads tell of twice the error that is there: an audit knows better. Two that stand out by a thousandfold change
-// little.
+// Probed pixels whose spreads tell of twice the error that is there: an audit knows better.
 void a_probe_believes_its_audit(void**) {
     Random random(16);
     const double error = 0.01, doubt = 0.003;
     std::vector<Probed> pixels;
     for (int i = 0; i < 5000; ++i) {
         const double audit_spread = doubt * normal(random);
-        pixels.push_back({std::sqrt(2.0) * error * normal(random), error * error / 4, error * normal(random) + doubt * normal(random), audit_spread});
+        pixels.push_back({std::sqrt(2.0) * error * normal(random), error * normal(random) + doubt * normal(random), audit_spread});
     }
     // Means of 5,000 squares of normal deviations are known to 2 %; an audit is given all but a hundredth of the weight.
-    check_close("without an audit", probed_correction(pixels, false), 8, 8 * 0.08);
-    check_close("with one", probed_correction(pixels, true), 4, 4 * 0.12);
-    const double without = probed_correction(pixels, true);
-    for (int i = 0; i < 2; ++i) pixels[size_t(i)].spread = pixels[size_t(i)].deviation = 30 * error;
-    check_close("with two that stand out", probed_correction(pixels, true), without, 0.1 * without);
-    assert_true(probed_correction({}, true) == 1 && probed_correction({{0, 0, 0, 0}}, true) == 1);
+    check_close("without an audit", probed_error(pixels, false) / (error * error), 2, 2 * 0.08);
+    check_close("with one", probed_error(pixels, true) / (error * error), 1, 0.12);
+    assert_true(probed_error({}, true) == 0 && probed_error({{0, 0, 0}}, true) == 0);
+}
+
+// Pixels that are all alike get what takes the probe's error to what is allowed, less a margin; whatever their share says of it.
+void a_probe_plans_the_first_round(void**) {
+    const Settings settings = asking("target_error", 0.02);
+    const double probed = 1e-3, planned = 0.55 * 0.7 * std::pow(0.83 * 0.02, 2);
+    for (const uint32_t bin : {3u, budget_bins / 2, budget_bins - 1}) {
+        Forecast forecast{1000, 1, 1};
+        forecast.probed_error = probed;
+        Control control(settings, forecast, 2, {}, 0);
+        Histogram histogram(budget_bins);
+        histogram[bin] = 1000;
+        // Samples are whole numbers: of some 300, a half is a six-hundredth.
+        check_close("samples", control.plan(histogram, 0)[bin] / (Audit::probe_samples * std::pow(probed / planned, 1 / 1.2)), 1, 1.0 / 300);
+    }
 }
 
 void who_is_drawn_among_few_is_among_more(void**) {
@@ -300,6 +311,7 @@ int main() {
         cmocka_unit_test(tiles_count_their_own_witnesses),
         cmocka_unit_test(an_audit_sees_what_the_spreads_do_not),
         cmocka_unit_test(a_probe_believes_its_audit),
+        cmocka_unit_test(a_probe_plans_the_first_round),
         cmocka_unit_test(who_is_drawn_among_few_is_among_more),
         cmocka_unit_test(an_audit_takes_what_it_may),
         cmocka_unit_test(a_time_is_shared_between_two_rounds),
