@@ -29,11 +29,11 @@ struct Audit {
     static Effort effort(const Settings& settings, double covered_pixels, double samples_per_millisecond);
 };
 
-// Of a picture's two replicates and an audit's two, either of one against either of the other: the mean over pixels of the products of
-// their deviations has the noise of neither.
+// Of a picture's two replicates and an audit's two, either of one against either of the other: the mean over pixels of the products
+// of their deviations has the noise of neither.
 class BiasSum {
 public:
-    // The picture's deviation from the audit, and half the differences of the replicates of both; all relative to what the pixel shows.
+    // The picture's deviation from the audit, and half the differences of the replicates of both; relative to what the pixel shows.
     void add(double deviation, double own_spread, double other_spread);
 
     // What an audit saw of a mean squared error beyond `noise`, which the spreads tell of, each weighed by its doubt; negative where
@@ -43,8 +43,8 @@ public:
     };
     Bias beyond(double noise) const;
 
-    // A pixel is believed up to an error of as much as it shows: products of few samples' noise go far beyond in both directions, and
-    // one of them would drown the others.
+    // A pixel is believed up to an error of as much as it shows: products of few samples' noise go far beyond in both directions,
+    // and one of them would drown the others.
     static constexpr double largest_square = 1;
     // Nor may an audit say that there is less than this part of what the spreads tell.
     static constexpr double least_true = 0.3;
@@ -53,7 +53,7 @@ private:
     double sum_ = 0, squares_ = 0, count_ = 0;
 };
 
-// A pixel that was also drawn as the frame will be. Relative to what it is expected to show.
+// A pixel that was also drawn as the frame will be. Relative to what it shows.
 struct Probed {
     double spread;
     double deviation, audit_spread;  // from the audit; 0 where there is none

@@ -20,8 +20,8 @@ constexpr double tolerance_share = 1.2, least_tolerance = 0.03, most_tolerance =
 // Share of interpolation in the squared error. Pixels shaded grow about as the scale, the square of interpolation's error falls
 // as its fourth power, that of noise as the samples: time is least where the former is some quarter of the whole.
 constexpr double interpolation_share = 0.3, most_interpolation = 0.5;
-// Rounds aim below what was asked, by what the estimate may miss. The last is one that is thought to come this near, or, with all that
-// is in doubt, that near.
+// Rounds aim below what was asked, by what the estimate may miss. The last is one that is thought to come this near, or, with all
+// that is in doubt, that near.
 constexpr double aim = 0.83, near_enough = 0.87, good_enough = 0.95;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 1;

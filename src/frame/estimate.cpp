@@ -48,7 +48,8 @@ void add_bias(const RoundPixels& pixels, const Audit& audit, uint32_t frames, Er
         const size_t i = audit.at[k];
         const double scale = scale_at(pixels, i, estimate->mean_luminance);
         if (!(scale > 0)) continue;
-        sum.add((luminance_at(pixels, i) - audit.mean[k]) / scale, pixels.spread[2 * i] / std::sqrt(frames) / scale, audit.spread[k] / scale);
+        sum.add((luminance_at(pixels, i) - audit.mean[k]) / scale, pixels.spread[2 * i] / std::sqrt(frames) / scale,
+                audit.spread[k] / scale);
     }
     const BiasSum::Bias bias = sum.beyond(estimate->noise);
     estimate->bias = bias.mean;
@@ -98,7 +99,8 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         }
         if (!is_witness(pixels.decision[i])) continue;
         ++own.witnesses;
-        const double square = std::clamp(pixels.spread[2 * i + 1] / (scale * scale), -BiasSum::largest_square, BiasSum::largest_square);
+        const double square =
+            std::clamp(pixels.spread[2 * i + 1] / (scale * scale), -BiasSum::largest_square, BiasSum::largest_square);
         witnesses[slot].sum += square;
         witnesses[slot].squares += square * square;
         ++tile.witnesses;

@@ -200,14 +200,16 @@ void Frame::measure(Job* job) const {
     }
     job->counts_before = pixels.sample_count;
     next.plan.count("shade", job->samples);
-    next.plan.finished("estimate", text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
-                                        std::sqrt(next.estimate.interpolation), ", by bias ", std::sqrt(std::max(next.estimate.bias, 0.0))), 0, this->pixels(), "pixels");
+    next.plan.finished("estimate",
+                       text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
+                            std::sqrt(next.estimate.interpolation), ", by bias ", std::sqrt(std::max(next.estimate.bias, 0.0))),
+                       0, this->pixels(), "pixels");
 }
 
 // Pixels drawn by chance, and shaded all alike.
 struct Frame::Drawn {
-    std::vector<uint32_t> at;                            // y * width + x
-    std::vector<std::vector<uint32_t>> pixels_of_slot;   // y << 16 | x
+    std::vector<uint32_t> at;                           // y * width + x
+    std::vector<std::vector<uint32_t>> pixels_of_slot;  // y << 16 | x
 };
 
 Frame::Drawn Frame::draw(const Job& job, double part) const {
@@ -232,7 +234,8 @@ Audit Frame::shade_drawn(const Job& job, const Drawn& drawn, const Settings& own
     next.shading.clear(device_->gl());
     next.shading.decide_all(device_->gl());
     const passes::ShadingList list = passes::even_list(*device_, drawn.pixels_of_slot, samples);
-    passes::shade(*device_, job.scene, job.slots, own, seed, list, true, next.gbuffer, next.shading, [&](uint64_t) { job.report(0); });
+    passes::shade(*device_, job.scene, job.slots, own, seed, list, true, next.gbuffer, next.shading,
+                  [&](uint64_t) { job.report(0); });
     std::vector<float> radiance(pixels() * 4), spread(pixels() * 2);
     next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
     next.shading.spread.read(0, GL_RG, GL_FLOAT, spread.size() * sizeof(float), spread.data());
