@@ -110,7 +110,7 @@ void draw(Pixel pixel, uvec2 each, uint total, inout vec4 sum, inout vec2 lumina
     uint n = each.x + each.y, from_lobe = n;
     float footprints = float(total), odd;
 #if defined(SAMPLER_CUT)
-    if (n > 2u) from_lobe = max((n + 1u) / 2u, 2u);  // as many again are parts of the cut
+    if (n > 2u) from_lobe = (n + 1u) / 2u;  // as many again are parts of the cut
     footprints *= 0.5;
 #endif
     vec4 drawn = sample_lobes(pixel, from_lobe, footprints, 1.0, state, odd);

@@ -16,7 +16,7 @@ namespace lightband {
 struct Ceilings {
     static constexpr uint32_t count = 8;
     static constexpr double first = 0.5;  // of the map's mean radiance
-    static constexpr double worth = 8;   // measured (docs/decisions/0009): 2 to 32, least error at 16
+    static constexpr double worth = 8;    // measured (docs/decisions/0009): 2 to 32, least error at 8
     static double at(uint32_t layer) { return first * double(1u << 2 * layer); }
     static double part_above(uint32_t layer, double map_density) {
         const double radiance = 4 * pi * map_density;
