@@ -13,9 +13,10 @@ layout(binding = 0, r8ui) readonly uniform uimage2D levels;
 layout(binding = 1, r32f) readonly uniform image2D variances;
 layout(binding = 4) uniform sampler2D bandwidth;
 layout(binding = 5) uniform sampler2D prediction;
-layout(binding = 6) uniform sampler2D radiances;  // of former rounds: src/frame/targets.h
+#if defined(FURTHER_ROUND)
+layout(binding = 6) uniform usampler2D former_bins;  // of pixels that former rounds shaded, by what they measured
+#endif
 uniform float mean_radiance;  // of the covered pixels, as predicted
-uniform float surprise;       // turns a measured variance into the predicted one that it deserves; 0: none was measured
 uniform float tolerance;      // by how much, relatively, the pilots may contradict interpolation
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
@@ -80,22 +81,14 @@ const float variance_power = 0.5;
 // Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
 // sqrt(area * variance), the area being that which the pixel is interpolated over. Constant variance (section 2.4):
 // N proportional to the variance.
-// surplus: how many times more the pixel's own samples varied than that; they know what footprints leave.
-int share(float variance, float surplus, int level) {
+int share(float variance, int level) {
     if (variance <= 0.0) return 0;
 #if defined(ALLOCATION_CONSTANT_VARIANCE)
-    float octave = log2(variance * surplus);
+    float octave = log2(variance);
 #else
-    float octave = variance_power * log2(variance) + 0.5 * log2(surplus) + float(level);
+    float octave = variance_power * log2(variance) + float(level);
 #endif
-    return clamp(int(round(octave)) + BINS / 2, 0, BINS - 1);
-}
-
-// The relative variance of a sample as former rounds measured it.
-float measured_variance(ivec2 at) {
-    vec4 radiance = texelFetch(radiances, at, 0);
-    float mean = luminance(radiance.rgb);
-    return relative_variance(vec2(max(radiance.a - mean * mean, 0.0), texelFetch(prediction, at, 0).g), mean_radiance);
+    return clamp(int(round(octave * BINS_PER_OCTAVE)) + SHARE_ONE, 0, BINS - 1);
 }
 
 #endif
@@ -107,7 +100,7 @@ void main() {
     bool former = imageLoad(sample_counts, at).r > 0u;
     if (texelFetch(normals, at, 0).w > 0.0) atomicAdd(counts.bent, 1u);
 #if defined(SHADE_ALL)
-    shade(at, material, BINS / 2, former, false);
+    shade(at, material, SHARE_ONE, former, false);
 #else
     uint own = imageLoad(levels, at).r;
     if (texelFetch(bandwidth, at, 0).b >= 0.5) atomicAdd(counts.saturated, 1u);
@@ -115,14 +108,16 @@ void main() {
     int least;
     float variance;
     around(at, level, least, variance);
-    float surplus = 1.0;
-    if (former && surprise > 0.0 && variance > 0.0) surplus = max(surprise * measured_variance(at) / variance, 1.0);
+    int bin = share(variance, min(level, int(own)));
+#if defined(FURTHER_ROUND)
+    if (former) bin = int(texelFetch(former_bins, at, 0).r);
+#endif
     bool chosen = hash((uint(at.y) << 16 | uint(at.x)) ^ hash(seed)) < witnesses;
     bool interpolate = level < coarsest_level && least > level && (chosen || !former);
     if (interpolate) interpolate = has_sound_parents(at, level, float(own));
     if (interpolate && !chosen)
         imageStore(decisions, at, uvec4(interpolate_it));
     else
-        shade(at, material, share(variance, surplus, min(level, int(own))), former, interpolate);
+        shade(at, material, bin, former, interpolate);
 #endif
 }

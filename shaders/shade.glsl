@@ -12,12 +12,11 @@ layout(binding = 6) uniform sampler2D normals;
 layout(binding = 7) uniform usampler2D decisions;
 layout(binding = 0, rgba32f) uniform image2D radiances;      // mean of RGB; mean of squared luminance
 layout(binding = 1, r32ui) uniform uimage2D sample_counts;   // samples that went into them; `unfinished` between two parts
-layout(binding = 2, rg32f) uniform image2D spreads;          // half the difference of the replicates' luminances
+layout(binding = 2, rgba32f) uniform image2D spreads;        // half the difference of the replicates' luminances
 uniform uint first, count;                                   // part of the list
 uniform uint samples[BINS];                                  // for each bin
 uniform uint seed;
 uniform uint part;    // PART_SAMPLES of each pixel were drawn in every part before this one
-uniform uint spared;  // a pixel that a former round gave all but 2^-spared of what it is to get stays as it is
 
 struct Pixel {
     mat3 frame;  // columns: the local frame in world space
@@ -143,7 +142,8 @@ void main() {
     ivec2 at = ivec2(entry & 0xffffu, entry >> 16);
     uint wanted = samples[bin_of(texelFetch(decisions, at, 0).r)], stored = imageLoad(sample_counts, at).r;
     uint had = part * uint(PART_SAMPLES), total = min(wanted, had + uint(PART_SAMPLES));
-    if (part == 0u ? wanted <= stored + (stored >> spared) : stored != (had | unfinished)) return;
+    // What a former round drew stays, or is drawn anew (src/frame/budget.h).
+    if (part == 0u ? wanted < WORTH_REDRAWING * stored : stored != (had | unfinished)) return;
     // The first replicate holds the odd sample. One sample alone has no spread; it is taken to be as uncertain as it is bright.
     uvec2 had_each = uvec2((had + 1u) / 2u, had / 2u), each = uvec2((total + 1u) / 2u, total / 2u);
 

@@ -1,6 +1,5 @@
 // Interpolates the pixels that are new on one lattice and were not shaded (section 3.2). At a witness, which was shaded, the
-// interpolated value is only compared: with two independent replicates a and b of everything, the product of the two
-// deviations is an unbiased estimate of the squared error of interpolation; their noise cancels.
+// interpolated value is only compared: the host judges it (src/frame/estimate.cpp).
 #include "common.glsl"
 #include "covered.glsl"
 #include "decision.glsl"
@@ -10,7 +9,7 @@ layout(binding = 3) uniform usampler2D decisions;
 layout(binding = 4) uniform usampler2D sample_counts;
 layout(binding = 0, rgba32f) uniform image2D radiances;  // src/frame/targets.h
 layout(binding = 1, r8ui) readonly uniform uimage2D levels;
-layout(binding = 2, rg32f) uniform image2D spreads;
+layout(binding = 2, rgba32f) uniform image2D spreads;
 uniform int level;
 
 // Variance of the luminance that a pixel holds, as if its samples were independent.
@@ -42,6 +41,6 @@ void main() {
         return;
     }
     float own = imageLoad(spreads, at).r;
-    float deviation = luminance(sum.rgb) - luminance(imageLoad(radiances, at).rgb), difference = spread - own;
-    imageStore(spreads, at, vec4(own, (deviation + difference) * (deviation - difference), 0, 0));
+    float deviation = luminance(sum.rgb) - luminance(imageLoad(radiances, at).rgb);
+    imageStore(spreads, at, vec4(own, deviation, spread - own, sum.a));
 }

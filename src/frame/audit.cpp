@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "frame/control.h"
 
@@ -9,21 +10,29 @@ namespace lightband {
 namespace {
 
 // Pixels of an audit: squared errors differ by orders of magnitude from pixel to pixel, and their mean over a few hundred is known to
-// a quarter or so.
+// a quarter or so; their ratio to what the spreads tell to a sixth.
 constexpr double least_pixels = 384, part_beyond = 1.0 / 128, most_part = 1.0 / 32;
-// Sampled by the map's clusters, a pixel errs by 0.5 to 1 over the square root of its samples: by about the target, with so many parts
-// of its inverse square. At a given total, fewer samples of more pixels would know the mean square worse.
-constexpr double wanted_share = 0.5;
-constexpr double fewest = 64, most = 8192;
 // Of a small frame this part at most, or nothing would be interpolated.
 constexpr double most_covered = 0.5;
-// A frame without target looks as closely as cut light pays: at equal error an unbiased sampler takes several times the samples.
-constexpr double samples_for_each = 4;
+constexpr double fewest = 64, most = 1 << 16;
+
+// A biased sampler's cut and footprints shrink with its samples, and so does their error. Over the scenes of docs/trade.md a pixel of N
+// samples differs from one of 4 N by 1.06 of its own squared error (0.88 to 1.16 by scene), from one of 8 N by 1.02: of the other's
+// error, which falls as N^-g, so much shows.
+constexpr double shown_of_audit = 0.3;
+// Below so many times a pixel's own samples, an audit says more of itself.
+constexpr double least_gain = 1.8;
+
+// Sampled by the map's clusters, a pixel errs by 0.5 to 1 over the square root of its samples: by about the target, with so many parts
+// of its inverse square.
+constexpr double unbiased_share = 0.5;
+// A pixel of n samples of a cut errs by 0.2 to 0.4 of n^(-g / 2): a probe has about as many as will be planned.
+constexpr double expected_error = 0.3, least_probe = 16, most_probe = 512;
 // Part of a frame's time.
 constexpr double part_of_time = 0.06;
 
-// What the spreads do not tell of a squared error, before any audit: nothing, give or take as much as they tell.
-constexpr double expected_bias_doubt = 1;
+// What pixels err by over what their spreads tell, before any audit: as much, give or take as much again.
+constexpr double expected_doubt = 1;
 
 uint32_t hash(uint32_t value) {
     const uint32_t state = value * 747796405u + 2891336453u, word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
@@ -36,14 +45,31 @@ bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part) {
     return hash((y << 16 | x) ^ hash(seed)) < part * 0x1p32;
 }
 
+bool Audit::tells_of(double own_samples) const { return own_samples > 0 && (!biased || samples >= least_gain * own_samples); }
+
+double Audit::square(double deviation, double audit_spread, double own_samples) const {
+    const double square = std::min(deviation * deviation, AuditSum::largest_square);
+    if (!biased) return square - std::min(audit_spread * audit_spread, AuditSum::largest_square);
+    return square / (1 + shown_of_audit * std::pow(own_samples / samples, stratified_gain));
+}
+
+double Audit::square_of_other(double deviation, double audit_spread, double drawn, double own_samples) const {
+    const double square = std::min(deviation * deviation, AuditSum::largest_square);
+    return square - (biased ? drawn * std::pow(own_samples / samples, stratified_gain)
+                            : std::min(audit_spread * audit_spread, AuditSum::largest_square));
+}
+
 Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, double samples_per_millisecond) {
-    const bool biased = settings.sampler() == Sampler::cut || settings.sampler() == Sampler::filtered;
-    const bool planned = settings.method() == Method::adaptive && settings.target_error() > 0;
+    const bool cut = settings.sampler() == Sampler::cut, biased = cut || settings.sampler() == Sampler::filtered;
+    const double target = settings.target_error();
+    const bool planned = settings.method() == Method::adaptive && target > 0;
     if (covered_pixels == 0 || !(biased || planned)) return {};
     double pixels = std::min(least_pixels + part_beyond * covered_pixels, std::max(most_part * covered_pixels, least_pixels));
-    double samples = samples_for_each * settings.samples();
-    const double target = settings.target_error();
-    if (target > 0) samples = wanted_share / (target * target);
+    double samples = gain * settings.samples() * settings.accumulate(), probe = 0;
+    if (target > 0) {
+        probe = std::clamp(std::pow(expected_error / target, 2 / stratified_gain), least_probe, most_probe);
+        samples = cut ? gain * probe : unbiased_share / (target * target);
+    }
     if (settings.time_budget() > 0) {
         const double affordable = part_of_time * settings.time_budget() * samples_per_millisecond;
         if (!(target > 0)) samples = most;
@@ -51,34 +77,29 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
         pixels = std::min(pixels, affordable / (fewest + Pace::pixel_samples));
     }
     return {std::min(pixels / covered_pixels, most_covered), biased ? uint32_t(std::clamp(samples, fewest, most)) : 0,
-            planned ? probe_samples : 0};
+            planned ? uint32_t(probe) : 0};
 }
 
-void BiasSum::add(double deviation, double own_spread, double other_spread) {
-    const double square =
-        std::clamp(deviation * deviation - own_spread * own_spread - other_spread * other_spread, -largest_square, largest_square);
-    sum_ += square;
-    squares_ += square * square;
-    ++count_;
+void AuditSum::add(double square, double told) {
+    squares_.push_back(square);
+    told_.push_back(std::min(told, largest_square));
 }
 
-BiasSum::Bias BiasSum::beyond(double noise) const {
-    if (count_ == 0) return {};
-    const double seen = sum_ / count_, seen_doubt = std::max((squares_ / count_ - seen * seen) / count_, 0.0);
-    const double expected_doubt = std::pow(expected_bias_doubt * noise, 2);
-    if (!(seen_doubt + expected_doubt > 0)) return {};
-    const double weight = expected_doubt / (seen_doubt + expected_doubt);
-    return {std::max(weight * seen, (least_true - 1) * noise), std::sqrt(weight * seen_doubt)};
+AuditSum::Bias AuditSum::beyond(double noise) const {
+    const double told = std::accumulate(told_.begin(), told_.end(), 0.0);
+    if (!(told > 0)) return {};
+    const double ratio = std::accumulate(squares_.begin(), squares_.end(), 0.0) / told;
+    double doubt = 0;  // the ratio's variance
+    for (size_t i = 0; i < told_.size(); ++i) doubt += std::pow((squares_[i] - ratio * told_[i]) / told, 2);
+    // What was seen may also be what was to be expected, if only one had known.
+    const double expected = expected_doubt * expected_doubt + (ratio - 1) * (ratio - 1), weight = expected / (expected + doubt);
+    return {noise * std::max(weight * (ratio - 1), least_true - 1), noise * std::sqrt(weight * doubt)};
 }
 
-double probed_error(const std::vector<Probed>& pixels, bool audited) {
-    double seen = 0;
-    BiasSum bias;
-    for (const Probed& pixel : pixels) {
-        seen += std::min(pixel.spread * pixel.spread, BiasSum::largest_square) / double(pixels.size());
-        if (audited) bias.add(pixel.deviation, pixel.spread, pixel.audit_spread);
-    }
-    return seen + bias.beyond(seen).mean;
+double AuditSum::error() const {
+    if (told_.empty()) return 0;
+    const double told = std::accumulate(told_.begin(), told_.end(), 0.0) / double(told_.size());
+    return told + beyond(told).mean;
 }
 
 }  // namespace lightband

@@ -6,8 +6,6 @@
 namespace lightband {
 namespace {
 
-double share_of(uint32_t bin) { return std::ldexp(1.0, int(bin) - int(budget_bins) / 2); }
-
 Budget budget_at(double scale, uint32_t least, uint32_t most) {
     Budget budget(budget_bins);
     for (uint32_t bin = 0; bin < budget_bins; ++bin)
@@ -28,6 +26,8 @@ double largest_scale(Condition holds) {
 }
 
 }  // namespace
+
+double share_of(uint32_t bin) { return std::exp2((double(bin) - share_one) / bins_per_octave); }
 
 Budget plan_mean(const Histogram& histogram, double mean, uint32_t most) {
     double pixels = 0;
@@ -58,6 +58,27 @@ Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Alloc
     });
     // The next sample up, where the noise is below the goal.
     return budget_at(scale * (1 + 1e-9), least, most);
+}
+
+Redrawing redrawing(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, const Budget& budget) {
+    Redrawing result;
+    const auto add = [&](double pixels, uint32_t bin) {
+        result.pixels += pixels;
+        result.samples += pixels * budget[bin];
+    };
+    for (const DrawnGroup& group : drawn)
+        if (budget[group.bin] >= worth_redrawing * group.samples) add(group.pixels, group.bin);
+    for (uint32_t bin = 0; bin < budget_bins; ++bin) add(double(fresh[bin]), bin);
+    return result;
+}
+
+Budget replan_cost(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, double cost, double pixel_samples, uint32_t most) {
+    const uint32_t least = std::min(least_samples, most);
+    const double scale = largest_scale([&](double candidate) {
+        const Redrawing all = redrawing(drawn, fresh, budget_at(candidate, least, most));
+        return all.samples + pixel_samples * all.pixels <= cost;
+    });
+    return budget_at(scale, least, most);
 }
 
 }  // namespace lightband

@@ -26,15 +26,11 @@ constexpr double aim = 0.83, near_enough = 0.87, good_enough = 0.95;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 1;
 constexpr uint32_t most_rounds = 8;
-// A pixel whose samples vary so many times more than predicted, as predictions go in its frame, found a light that the pilots
-// did not: it gets samples by what was measured. Single pixels' variances are known to a factor of two or so.
-constexpr double unsurprising = 4;
-// Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
-constexpr double stratified_gain = 1.2;
 // The scale grows with the squared error of interpolation over what is allowed. For a smooth picture the fourth root would do; near
 // edges, where most of it comes from, it falls more slowly. Steps below the least would not be worth a new classification.
-constexpr double growth_power = 0.35, least_growth = 1.1, most_growth = 4;
-// First rounds were seen to leave between half and twice of what a probe foretold for them; a second costs more than some samples.
+constexpr double growth_power = 0.5, least_growth = 1.1, most_growth = 4;
+// What pixels are interpolated from passes its noise on to many: first rounds were seen to leave between half and twice of what a probe
+// foretold for them, and a second costs more than some samples. Where every pixel is shaded, a probe is right on the whole.
 constexpr double held_by_first = 0.55;
 // Witnesses are heard where noise is at most so many times what is allowed, and believed without doubt up to the other.
 constexpr double trusted_noise = 3, blameless_noise = 1.25;
@@ -42,7 +38,7 @@ constexpr double trusted_noise = 3, blameless_noise = 1.25;
 constexpr double prior_witnesses = 4;
 // A round that did not suffice, though no level was at fault, is followed by one of at most this part of its noise.
 // And of no less than that other part: the noise of few samples is itself known badly, often far too high.
-constexpr double least_progress = 0.7, most_progress = 0.25;
+constexpr double least_progress = 0.9, most_progress = 0.25;
 // Witnesses that tell, and the part of pixels that cost little.
 constexpr double telling_witnesses = 256, cheap_witnesses = 1.0 / 16;
 // Part of the time that the first of two rounds may take, and the least part for which another is worth its lists.
@@ -56,8 +52,8 @@ constexpr double telling_part = 0.25;
 // Of what a round spends beside shading, the part that comes after it.
 constexpr double after_shading = 0.6;
 
-// What noise must be planned for, by a model in which it falls as the samples, so that it becomes `part` of what it is.
-double reached_by_more(double noise, double part) { return noise * std::pow(part, 1 / stratified_gain); }
+// The part of its noise that must be planned for, by a model in which it falls as the samples, so that it becomes `part` of what it is.
+double reached_by_more(double part) { return std::pow(part, 1 / stratified_gain); }
 
 double total(const Histogram& histogram) { return double(std::accumulate(histogram.begin(), histogram.end(), uint64_t(0))); }
 
@@ -74,10 +70,9 @@ void Pace::learn(const RoundCost& cost, bool first_round) {
 
 Control::Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed)
     : settings_(settings), forecast_(forecast), pace_(pace) {
+    interpolates_ = settings.coarsest_level() > 0;
     // Half of the pixels at most, or small frames would not be interpolated.
     witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), cheap_witnesses, 0.5);
-    const double goal = aim * settings.target_error();
-    noise_goal_ = (1 - interpolation_share) * goal * goal;
     scales_.assign(tiles, float(first_scale(elapsed)));
 }
 
@@ -104,20 +99,45 @@ double Control::tolerance() const {
     return std::max(most_tolerance, expected_noise_);
 }
 
+double Control::goal() const { return std::pow(aim * settings_.target_error(), 2); }
+double Control::share_of_interpolation() const { return interpolates_ ? interpolation_share : 0; }
+double Control::noise_allowed() const { return (1 - share_of_interpolation()) * goal(); }
+
+double Control::first_noise() const { return interpolates_ ? held_by_first * noise_allowed() : noise_allowed(); }
+
 // What shares and samples foretell of the noise is made to agree with the probe where every pixel has as many samples as that; from
 // there the goal is reached by more.
-void Control::heed_probe(const Histogram& histogram) {
-    const double foretold = predicted_noise(histogram, Budget(budget_bins, Audit::probe_samples), settings_.allocation());
-    if (!(forecast_.probed_error > 0) || !(foretold > 0)) return;
-    correction_ = forecast_.probed_error * forecast_.covered / foretold;
-    noise_goal_ = reached_by_more(forecast_.probed_error, held_by_first * noise_goal_ / forecast_.probed_error);
+double Control::predicted_goal(const Histogram& histogram) const {
+    const double foretold = predicted_noise(histogram, Budget(budget_bins, forecast_.probe_samples), settings_.allocation());
+    if (!(forecast_.probed_error > 0) || !(foretold > 0)) return noise_allowed() * forecast_.covered;
+    return foretold * reached_by_more(first_noise() / forecast_.probed_error);
 }
 
-bool Control::coarsen(const Histogram& histogram, double elapsed) {
-    if (settings_.time_budget() <= 0 || settings_.target_error() > 0 || settings_.bandwidth_scale() > 0 || round_ > 0) return false;
+// Samples of so many pixels that leave what is allowed, as a probe foretells.
+double Control::first_cost(double pixels) const {
+    const double samples = forecast_.probe_samples * std::pow(forecast_.probed_error / first_noise(), 1 / stratified_gain);
+    return pixels * (Pace::pixel_samples + std::max(samples, double(least_samples)));
+}
+
+bool Control::reconsider(const Histogram& histogram, double elapsed) {
+    if (round_ > 0 || settings_.bandwidth_scale() > 0) return false;
+    if (settings_.target_error() > 0) return stop_interpolating(total(histogram));
+    return settings_.time_budget() > 0 && coarsen(total(histogram), elapsed);
+}
+
+// Interpolation takes a share of the error, and so more samples of each pixel: it pays where it spares more pixels than that.
+bool Control::stop_interpolating(double shaded) {
+    if (!(forecast_.probed_error > 0)) return false;
+    const double interpolating = first_cost(shaded);
+    interpolates_ = false;
+    interpolates_ = interpolating < first_cost(forecast_.covered);
+    return !interpolates_;
+}
+
+bool Control::coarsen(double shaded, double elapsed) {
     const double left = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0);
     const double affordable = left * pace_.samples_per_millisecond / (Pace::pixel_samples + fewest_in_time);
-    const double part = affordable / std::max(total(histogram), 1.0);
+    const double part = affordable / std::max(shaded, 1.0);
     if (part >= 1) return false;
     // Pixels shaded grow about as the scale.
     for (float& scale : scales_) scale *= float(std::max(part, least_part));
@@ -126,11 +146,9 @@ bool Control::coarsen(const Histogram& histogram, double elapsed) {
 
 const Budget& Control::plan(const Histogram& histogram, double elapsed) {
     ++round_;
-    histogram_ = histogram;
-    const double pixels = std::max(total(histogram), 1.0);
+    const double pixels = shaded_ = std::max(total(histogram), 1.0);
     if (settings_.target_error() > 0) {
-        if (round_ == 1) heed_probe(histogram);
-        budget_ = plan_noise(histogram, noise_goal_ * forecast_.covered / correction_, settings_.max_samples(), settings_.allocation());
+        budget_ = plan_noise(histogram, predicted_goal(histogram), settings_.max_samples(), settings_.allocation());
     } else if (settings_.time_budget() > 0) {
         const double mean = time_to_shade(elapsed) * pace_.samples_per_millisecond / pixels - Pace::pixel_samples;
         budget_ = plan_mean(histogram, std::max(mean, fewest_in_time), settings_.max_samples());
@@ -139,6 +157,16 @@ const Budget& Control::plan(const Histogram& histogram, double elapsed) {
     } else {
         budget_ = plan_mean(histogram, settings_.samples(), settings_.max_samples());
     }
+    return budget_;
+}
+
+const Budget& Control::plan_further(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, double elapsed) {
+    ++round_;
+    shaded_ = total(fresh);
+    for (const DrawnGroup& group : drawn) shaded_ += group.pixels;
+    if (!(settings_.target_error() > 0))
+        budget_ = replan_cost(drawn, fresh, time_to_shade(elapsed) * pace_.samples_per_millisecond, Pace::pixel_samples,
+                              settings_.max_samples());
     return budget_;
 }
 
@@ -152,7 +180,7 @@ double Control::time_to_shade(double elapsed) const {
 
 bool Control::out_of_time(const RoundCost& cost) {
     // A round of few new pixels says little of others.
-    if (double(cost.pixels) >= telling_part * total(histogram_)) pace_.learn(cost, round_ == 1);
+    if (double(cost.pixels) >= telling_part * shaded_) pace_.learn(cost, round_ == 1);
     if (settings_.time_budget() <= 0) return false;
     const double left = settings_.time_budget() - cost.elapsed_milliseconds - pace_.round_milliseconds;
     return left < std::max(worthwhile_part * settings_.time_budget(), pace_.round_milliseconds);
@@ -217,9 +245,6 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     const bool late = out_of_time(cost);
     if (target <= 0 && settings_.time_budget() <= 0) return false;
     if (late || round_ == most_rounds) return false;
-    const double predicted = predicted_noise(histogram_, budget_, settings_.allocation());
-    if (predicted > 0) correction_ = std::max(estimate.shading() * forecast_.covered / predicted, 1e-6);
-    surprise_ = estimate.stratification / (correction_ * unsurprising);
     if (target <= 0) {
         if (round_ > 1) return false;
         improve_levels(estimate, interpolation_share * first_part * estimate.shading(), 1);  // of what the rest of the time will leave
@@ -229,22 +254,20 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
                                      caution * std::hypot(estimate.interpolation_deviation, estimate.bias_deviation));
     if (careful <= good_enough * target || estimate.error() <= near_enough * target) return false;
     choose_witnesses(estimate);
-    const double goal = aim * aim * target * target, shading_allowed = (1 - interpolation_share) * goal;
+    const double goal = this->goal(), share = share_of_interpolation(), shading_allowed = noise_allowed();
     // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again. What they may have seen
     // by chance is no reason to shade more, unless there is no noise left to blame.
     bool grown = false;
     if (estimate.shading() <= trusted_noise * shading_allowed)
-        grown = improve_levels(estimate, std::clamp(goal - estimate.shading(), interpolation_share * goal, most_interpolation * goal),
+        grown = improve_levels(estimate, std::clamp(goal - estimate.shading(), share * goal, most_interpolation * goal),
                                estimate.shading() > blameless_noise * shading_allowed ? 1 : 0);
     if (!grown && estimate.shading() <= shading_allowed) {
         // Neither is to blame: what is left is doubt.
         if (estimate.error() <= good_enough * target) return false;
-        grown = improve_levels(estimate, interpolation_share * goal, 0);
+        grown = improve_levels(estimate, share * goal, 0);
     }
-    const double kept = std::min(estimate.interpolation, interpolation_share * goal);
-    // Stratified points gain more than independent ones from being more.
-    const double wanted = std::clamp((goal - kept) / estimate.shading(), most_progress, grown ? 1 : least_progress);
-    noise_goal_ = reached_by_more(estimate.shading(), wanted);
+    const double kept = std::min(estimate.interpolation, share * goal);
+    wanted_part_ = std::clamp((goal - kept) / estimate.shading(), most_progress, grown ? 1 : least_progress);
     const bool at_most = std::all_of(budget_.begin(), budget_.end(), [&](uint32_t n) { return n >= settings_.max_samples(); });
     return grown || !at_most;
 }

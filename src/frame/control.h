@@ -15,6 +15,7 @@ struct Forecast {
     double mean_radiance = 0;       // luminance
     double relative_deviation = 0;  // mean of one light sample's standard deviation over the pixel's radiance
     double probed_error = 0;        // mean square that a probe's samples leave of every pixel; 0: not probed
+    uint32_t probe_samples = 0;     // of each
 };
 
 // What a round cost.
@@ -47,14 +48,20 @@ public:
     double witnesses() const { return witnesses_; }
     // By how much, relatively, what the pilots expect of a pixel may differ from interpolation of what they expect of its parents.
     double tolerance() const;
-    // Factor that turns a pixel's measured variance into the predicted one that it deserves; 0 before a round has measured.
-    double surprise() const { return surprise_; }
     // What was learnt of the device.
     const Pace& pace() const { return pace_; }
-    // Coarser levels, where the time that is left does not last for so many pixels; true: they have changed. Before the first round.
-    bool coarsen(const Histogram& histogram, double elapsed);
-    // Samples of each bin in this round, which draws anew what has a quarter less; elapsed: milliseconds since the frame began.
+    // Whether pixels may be interpolated.
+    bool interpolates() const { return interpolates_; }
+    // Before the first round: coarser levels, where the time that is left does not last for so many pixels; no interpolation, where it
+    // does not pay. True: pixels are to be classified anew.
+    bool reconsider(const Histogram& histogram, double elapsed);
+    // Samples of each bin in the first round; elapsed: milliseconds since the frame began.
     const Budget& plan(const Histogram& histogram, double elapsed);
+    // And in a further one. drawn: what former rounds drew; fresh: pixels that this is the first to draw.
+    const Budget& plan_further(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, double elapsed);
+    const Budget& budget() const { return budget_; }
+    // Part of the noise that the next round is to leave; 0: as much as time lets.
+    double wanted_part() const { return wanted_part_; }
     // Whether another round is needed after what the last one gave.
     bool again(const ErrorEstimate& estimate, const RoundCost& cost);
 
@@ -62,19 +69,25 @@ private:
     bool improve_levels(const ErrorEstimate& estimate, double allowed, double doubt);
     void choose_witnesses(const ErrorEstimate& estimate);
     bool out_of_time(const RoundCost& cost);
+    double goal() const;  // mean squares over the covered pixels: of the frame, of its noise, of what a first round plans for
+    double share_of_interpolation() const;
+    double noise_allowed() const;
+    double first_noise() const;
+    double predicted_goal(const Histogram& histogram) const;
+    double first_cost(double pixels) const;
+    bool stop_interpolating(double shaded);
+    bool coarsen(double shaded, double elapsed);
     double time_to_shade(double elapsed) const;
-    void heed_probe(const Histogram& histogram);
     double first_scale(double elapsed);
 
     const Settings& settings_;
     const Forecast forecast_;
     std::vector<float> scales_;
     double witnesses_;
-    Histogram histogram_;
+    bool interpolates_;
+    double shaded_ = 0;          // pixels
     Budget budget_;
-    double noise_goal_ = 0;   // mean square over the covered pixels
-    double correction_ = 1;   // measured noise over predicted
-    double surprise_ = 0;
+    double wanted_part_ = 0;     // of its noise that the next round is to leave
     double expected_noise_ = 0;  // of a frame that asks for no error
     Pace pace_;
     uint32_t round_ = 0;

@@ -35,24 +35,63 @@ struct WitnessSums {
 
 // A pixel shows between these parts of what the prediction expects: a sample that is far too bright would else raise the mean that
 // its own error is measured by, and hide in it; a few that miss the light would make any error look large. Sixteen pilots know the
-// mean to better than that.
-constexpr double least_expected = 0.5, most_expected = 1.5;
+// mean to better than that; but where they found no lamp, not so well as many samples that did: what a pixel shows less three of its
+// standard deviations is believed.
+constexpr double least_expected = 0.5, most_expected = 1.5, sure_deviations = 3;
 
-double scale_at(const RoundPixels& pixels, size_t at, double mean_luminance) {
-    return scale_of(luminance_at(pixels, at), pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
-}
+// A pixel that an audit looked at, held against it; squared and relative.
+struct Audited {
+    size_t at;
+    double scale;
+    double drawn;         // what was drawn there
+    double interpolated;  // what interpolation would show, at a witness
+};
 
-void add_bias(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
-    BiasSum sum;
+// frames: over which the picture is a mean.
+std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit, uint32_t frames, const ErrorEstimate& estimate) {
+    std::vector<Audited> result;
     for (size_t k = 0; k < audit.at.size(); ++k) {
         const size_t i = audit.at[k];
-        const double scale = scale_at(pixels, i, estimate->mean_luminance);
-        if (!(scale > 0)) continue;
-        sum.add((luminance_at(pixels, i) - audit.mean[k]) / scale, pixels.spread[2 * i] / std::sqrt(frames) / scale,
-                audit.spread[k] / scale);
+        const double scale = scale_of(pixels, i, estimate.mean_luminance), samples = double(pixels.sample_count[i]) * frames;
+        // An audit knows better than pilots what the pixel should show.
+        const double known = audit.mean[k] + dark_part * estimate.mean_luminance;
+        if (!(scale > 0) || !(known > 0) || !audit.tells_of(samples)) continue;
+        const double deviation = luminance_at(pixels, i) - audit.mean[k], spread = audit.spread[k] / known;
+        Audited pixel{i, scale, audit.square(deviation / known, spread, samples), 0};
+        if (is_witness(pixels.decision[i]))
+            pixel.interpolated = audit.square_of_other((deviation + pixels.spread[4 * i + 1]) / known, spread, pixel.drawn, samples);
+        result.push_back(pixel);
     }
-    const BiasSum::Bias bias = sum.beyond(estimate->noise);
-    estimate->bias = bias.mean;
+    return result;
+}
+
+// Squared noise over what the replicates tell of it. What they do not tell is not noise that two neighbours would differ by.
+double truth_of_spreads(const RoundPixels& pixels, const std::vector<Audited>& audited) {
+    AuditSum sum;
+    for (const Audited& pixel : audited) sum.add(pixel.drawn, std::pow(pixels.spread[4 * pixel.at] / pixel.scale, 2));
+    return 1 + std::min(sum.beyond(1).mean, 0.0);
+}
+
+// Squared error of interpolation at a witness. The square of its deviation holds the noise of both values; what the replicates tell
+// of that is taken off, as far as it is true.
+double witnessed(const RoundPixels& pixels, size_t at, double scale, double truth) {
+    const double deviation = pixels.spread[4 * at + 1] / scale, difference = pixels.spread[4 * at + 2] / scale;
+    return std::clamp(deviation * deviation - truth * difference * difference, -AuditSum::largest_square, AuditSum::largest_square);
+}
+
+// Witnesses stand for the pixels that are interpolated.
+void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, double truth, ErrorEstimate* estimate) {
+    AuditSum sum;
+    for (const Audited& pixel : audited) {
+        const double per_scale = estimate->stratification / (pixel.scale * pixel.scale);
+        if (!is_witness(pixels.decision[pixel.at])) {
+            sum.add(pixel.drawn, per_scale * variance_of_mean(pixels, pixel.at));
+            continue;
+        }
+        sum.add(pixel.interpolated, per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth));
+    }
+    const AuditSum::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
+    estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise);
     estimate->bias_deviation = bias.deviation;
 }
 
@@ -61,6 +100,12 @@ void add_bias(const RoundPixels& pixels, const Audit& audit, uint32_t frames, Er
 double scale_of(double shown, double expected, double mean_luminance) {
     if (expected > 0) shown = std::clamp(shown, least_expected * expected, most_expected * expected);
     return shown + dark_part * mean_luminance;
+}
+
+double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
+    const double shown = luminance_at(pixels, at), sure = shown - sure_deviations * std::sqrt(variance_of_mean(pixels, at));
+    const double scale = scale_of(shown, pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
+    return std::max(scale, sure + dark_part * mean_luminance);
 }
 
 double ErrorEstimate::error() const { return std::sqrt(noise + interpolation + bias); }
@@ -77,35 +122,25 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
     ErrorEstimate result;
     result.slots.resize(slots);
     result.mean_luminance = mean_luminance(pixels);
-    std::vector<WitnessSums> witnesses(slots);
     const size_t tiles = tiles_along(pixels.width), rows = pixels.material.size() / pixels.width;
     result.tiles.resize(tiles * tiles_along(uint32_t(rows)));
+    const auto tile_of = [&](size_t i) -> ErrorEstimate::Tile& {
+        return result.tiles[i / pixels.width / tile_side * tiles + i % pixels.width / tile_side];
+    };
     double spreads = 0, variances = 0, covered = 0;
     for (size_t i = 0; i < pixels.material.size(); ++i) {
         if (pixels.material[i] == 0) continue;
-        const uint32_t slot = slot_of[pixels.material[i] - 1u];
-        ErrorEstimate::Slot& own = result.slots[slot];
+        ErrorEstimate::Slot& own = result.slots[slot_of[pixels.material[i] - 1u]];
         ++own.covered;
         ++covered;
-        const double scale = scale_at(pixels, i, result.mean_luminance);
+        const double scale = scale_of(pixels, i, result.mean_luminance);
         if (!(scale > 0)) continue;  // a frame without light has no error
-        const double spread = pixels.spread[2 * i] / scale;
+        const double spread = pixels.spread[4 * i] / scale;
         spreads += spread * spread;
         variances += variance_of_mean(pixels, i) / (scale * scale);
-        ErrorEstimate::Tile& tile = result.tiles[i / pixels.width / tile_side * tiles + i % pixels.width / tile_side];
-        if (is_interpolated(pixels.decision[i])) {
-            ++own.interpolated;
-            ++tile.interpolated;
-        }
-        if (!is_witness(pixels.decision[i])) continue;
-        ++own.witnesses;
-        const double square =
-            std::clamp(pixels.spread[2 * i + 1] / (scale * scale), -BiasSum::largest_square, BiasSum::largest_square);
-        witnesses[slot].sum += square;
-        witnesses[slot].squares += square * square;
-        ++tile.witnesses;
-        tile.sum += square;
-        tile.squares += square * square;
+        if (!is_interpolated(pixels.decision[i])) continue;
+        ++own.interpolated;
+        ++tile_of(i).interpolated;
     }
     if (covered == 0) return result;
     if (variances > 0) {
@@ -113,6 +148,23 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         result.stratification = (spreads + prior) / (variances + prior);
     }
     result.noise = result.stratification * variances / covered;
+    const std::vector<Audited> audited = held_against(pixels, audit, 1, result);
+    const double truth = truth_of_spreads(pixels, audited);
+    std::vector<WitnessSums> witnesses(slots);
+    for (size_t i = 0; i < pixels.material.size(); ++i) {
+        if (pixels.material[i] == 0 || !is_witness(pixels.decision[i])) continue;
+        const double scale = scale_of(pixels, i, result.mean_luminance);
+        if (!(scale > 0)) continue;
+        const uint32_t slot = slot_of[pixels.material[i] - 1u];
+        ++result.slots[slot].witnesses;
+        const double square = witnessed(pixels, i, scale, truth);
+        witnesses[slot].sum += square;
+        witnesses[slot].squares += square * square;
+        ErrorEstimate::Tile& tile = tile_of(i);
+        ++tile.witnesses;
+        tile.sum += square;
+        tile.squares += square * square;
+    }
     for (size_t slot = 0; slot < slots; ++slot) {
         ErrorEstimate::Slot& own = result.slots[slot];
         if (own.witnesses == 0) continue;
@@ -124,15 +176,15 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         result.interpolation_deviation =
             std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / covered);
     }
-    add_bias(pixels, audit, 1, &result);
+    add_bias(pixels, audited, truth, &result);
     return result;
 }
 
 void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
-    add_bias(pixels, audit, frames, estimate);
     estimate->noise /= frames;
     estimate->stratification /= frames;
-    estimate->bias = std::max(estimate->bias, (BiasSum::least_true - 1) * estimate->noise);
+    const std::vector<Audited> audited = held_against(pixels, audit, frames, *estimate);
+    add_bias(pixels, audited, truth_of_spreads(pixels, audited), estimate);
 }
 
 std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,
@@ -146,7 +198,7 @@ std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& 
     std::vector<float> errors(pixels.material.size());
     for (size_t i = 0; i < errors.size(); ++i) {
         if (pixels.material[i] == 0) continue;
-        const double scale = scale_at(pixels, i, estimate.mean_luminance);
+        const double scale = scale_of(pixels, i, estimate.mean_luminance);
         if (!(scale > 0)) continue;
         double square = known_better * variance_of_mean(pixels, i) / (scale * scale) + std::max(estimate.bias, 0.0);
         if (is_interpolated(pixels.decision[i])) {

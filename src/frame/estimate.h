@@ -14,12 +14,14 @@ constexpr double dark_part = 0.01;
 
 // What a pixel's error is relative to. expected: as predicted; 0 where nothing was.
 double scale_of(double shown, double expected, double mean_luminance);
+struct RoundPixels;
+double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance);
 
 // What interpolation costs is held against the bandwidth in square tiles of so many pixels a side.
 constexpr uint32_t tile_side = 16;
 constexpr uint32_t tiles_along(uint32_t pixels) { return (pixels + tile_side - 1) / tile_side; }
 
-// A round's pixels as read back; all arrays of one length, but radiance (RGBA) and spread (two) interleaved: targets.h.
+// A round's pixels as read back; all arrays of one length, but radiance and spread (four each) interleaved: targets.h.
 struct RoundPixels {
     uint32_t width = 1;  // of a row
     std::vector<float> radiance, spread;

@@ -37,13 +37,20 @@ RoundPixels Frame::Result::read_round() const {
     RoundPixels pixels;
     pixels.width = stats.width;
     pixels.radiance = read_floats(shading.radiance, GL_RGBA, count, 4);
-    pixels.spread = read_floats(shading.spread, GL_RG, count, 2);
+    pixels.spread = read_floats(shading.spread, GL_RGBA, count, 4);
     if (prediction) pixels.expected = read_floats(prediction->prediction, GL_GREEN, count, 1);
     pixels.sample_count.resize(count);
     shading.sample_count.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, count * sizeof(uint32_t), pixels.sample_count.data());
     pixels.decision = read_bytes(shading.decision, count);
     pixels.material = read_bytes(gbuffer.material, count);
     return pixels;
+}
+
+std::vector<uint8_t> Frame::Result::levels() const {
+    if (!prediction) return {};
+    std::vector<uint8_t> levels = read_bytes(prediction->levels, size_t(stats.width) * prediction->pyramid_height);
+    levels.resize(size_t(stats.width) * stats.height);
+    return levels;
 }
 
 // How interpolation's squared error is spread over the pixels, up to a factor: linear interpolation errs by the square of
@@ -120,8 +127,7 @@ HostArray Frame::field(const std::string& name) const {
     if (name == "bandwidth_image") return scalar(bandwidth(GL_BLUE), "1/pixel");
     if (name == "curvature") return scalar(alpha_of(read_floats(r.prediction->bandwidth, GL_RGBA, pixels, 4)), "1/metre");
     if (name == "level") {
-        std::vector<uint8_t> levels = read_bytes(r.prediction->levels, size_t(width_) * r.prediction->pyramid_height);
-        levels.resize(pixels);
+        std::vector<uint8_t> levels = r.levels();
         for (size_t i = 0; i < pixels; ++i)
             if (material[i] == 0) levels[i] = 0;
         return HostArray::of(LB_TYPE_UINT8, flat, "log2(pixel)", std::move(levels));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "frame/redraw.h"
 #include "frame/result.h"
 #include "passes/gbuffer.h"
 
@@ -20,6 +21,9 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
 // Samples of a round for which the map's directions are drawn anew: those of one drawing, 65,536, would limit the error. It costs as
 // much as half a million samples or so.
 constexpr uint64_t worth_new_points = 1u << 23;
+
+// So many times what a first round plans on average is drawn at some pixels, or by the next.
+constexpr double audit_reserve = 1.4;
 
 // An audit draws its own directions of the map, the same for every frame, so that they are drawn once.
 constexpr uint32_t audit_seed = 0x61756469;
@@ -43,13 +47,16 @@ struct Frame::Job {
     const Scene& scene;
     const Progress& progress;
     const std::shared_ptr<Result> result;
+    Settings settings;  // of its rounds: the frame's, but without interpolation where that does not pay
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
     passes::Covered covered{};
     passes::Counts counts{};
     passes::ShadingList list{};              // of the last round
+    RoundPixels pixels{};                    // as the last round left them
+    Redraw redraw{};                         // what a further round knows of it
+    Redrawing drawn{};                       // of the last round, as planned
     uint64_t samples = 0;                    // of the picture as it is
-    std::vector<uint32_t> counts_before{};   // samples of each pixel in the round before
     RoundCost cost{};                        // of the last round
     Audit audit{};
     double audited = 0;                      // part of the pixels
@@ -71,7 +78,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
                                                  "; a frame with a target_error or a time_budget needs 1"));
     const gl::Functions& gl = device_->gl();
     const Scene::Slots slots = scene.slots();
-    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), slots, passes::slot_table(gl, slots)};
+    Job job{scene, progress, std::make_shared<Result>(gl, width_, height_), settings, slots, passes::slot_table(gl, slots)};
     Result& next = *job.result;
     next.settings = settings;
     next.stats.width = width_;
@@ -151,35 +158,46 @@ void Frame::decide(Job* job, const Control& control, const Forecast& forecast) c
                            text("least level and largest variance of each block, bandwidth times ", *least, " to ", *most),
                            prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
     }
-    job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), settings,
-                                   std::max(control.witnesses(), job->audited), forecast, control.tolerance(), control.surprise(),
-                                   job->covered, next.gbuffer, prediction, next.shading);
+    job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), job->settings,
+                                   std::max(control.witnesses(), job->audited), forecast, control.tolerance(), job->redraw.bins, width_, job->covered,
+                                   next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
 }
 
 void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
+    const bool first = next.stats.rounds == 1;
+    if (!first)
+        job->redraw = redraw(job->pixels, next.levels(), job->settings.coarsest_level(), next.estimate.mean_luminance,
+                             settings.allocation(), control->budget(), control->wanted_part());
     decide(job, *control, forecast);
-    if (control->coarsen(job->counts.bins(), next.plan.total_milliseconds())) decide(job, *control, forecast);
-    const Budget& budget = control->plan(job->counts.bins(), next.plan.total_milliseconds());
+    if (control->reconsider(job->counts.bins(), next.plan.total_milliseconds())) {
+        if (!control->interpolates()) job->settings.set_number("coarsest_level", 0);
+        decide(job, *control, forecast);
+    }
+    const double elapsed = next.plan.total_milliseconds();
+    const Budget& budget =
+        first ? control->plan(job->counts.bins(), elapsed) : control->plan_further(job->redraw.drawn, job->counts.fresh_bins(), elapsed);
+    job->drawn = redrawing(job->redraw.drawn, job->counts.fresh_bins(), budget);
+    if (first && audit_again(job)) decide(job, *control, forecast);
     job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, job->covered, next.gbuffer,
                                      next.shading);
     next.plan.finished("list", "pixels to shade, longest first", job->list.entries.bytes(), job->covered.all.count, "pixels");
 }
 
-void Frame::shade(Job* job, uint32_t seed) const {
+void Frame::shade(Job* job, const passes::Seeds& seeds) const {
     Result& next = *job->result;
     const passes::ShadingList& list = job->list;
     const auto drawn = [&](uint64_t samples) {
         job->report(double(samples) / double(std::max<uint64_t>(list.total_samples, 1)));
     };
-    passes::shade(*device_, job->scene, job->slots, settings, seed, list, next.stats.rounds == 1, next.gbuffer,
+    passes::shade(*device_, job->scene, job->slots, settings, seeds, list, next.gbuffer,
                   next.shading, drawn);
     next.plan.finished("shade", text(list.pixels, " pixels in ", job->slots.materials.size(), " materials"),
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
                        list.total_samples, "samples");
-    if (!next.prediction || settings.coarsest_level() == 0) return;
+    if (!next.prediction || job->settings.coarsest_level() == 0) return;
     passes::upsample(*device_, *job->scene.camera, settings, job->covered, next.gbuffer, *next.prediction, next.shading);
     next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count,
                        "pixels");
@@ -187,18 +205,18 @@ void Frame::shade(Job* job, uint32_t seed) const {
 
 void Frame::measure(Job* job) const {
     Result& next = *job->result;
-    const RoundPixels pixels = next.read_round();
+    RoundPixels pixels = next.read_round();
     next.estimate = estimate_error(pixels, next.slot_of, job->slots.materials.size(), job->audit);
     job->samples = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
     // A pixel is drawn anew or left as it was.
-    job->counts_before.resize(pixels.sample_count.size());
+    const std::vector<uint32_t>& before = job->pixels.sample_count;
     job->cost.pixels = job->cost.samples = 0;
     for (size_t i = 0; i < pixels.sample_count.size(); ++i) {
-        if (pixels.sample_count[i] == job->counts_before[i]) continue;
+        if (pixels.sample_count[i] == (before.empty() ? 0 : before[i])) continue;
         ++job->cost.pixels;
         job->cost.samples += pixels.sample_count[i];
     }
-    job->counts_before = pixels.sample_count;
+    job->pixels = std::move(pixels);
     next.plan.count("shade", job->samples);
     next.plan.finished("estimate",
                        text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
@@ -234,53 +252,71 @@ Audit Frame::shade_drawn(const Job& job, const Drawn& drawn, const Settings& own
     next.shading.clear(device_->gl());
     next.shading.decide_all(device_->gl());
     const passes::ShadingList list = passes::even_list(*device_, drawn.pixels_of_slot, samples);
-    passes::shade(*device_, job.scene, job.slots, own, seed, list, true, next.gbuffer, next.shading,
+    passes::shade(*device_, job.scene, job.slots, own, {seed, seed}, list, next.gbuffer, next.shading,
                   [&](uint64_t) { job.report(0); });
-    std::vector<float> radiance(pixels() * 4), spread(pixels() * 2);
+    std::vector<float> radiance(pixels() * 4), spread(pixels());
     next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
-    next.shading.spread.read(0, GL_RG, GL_FLOAT, spread.size() * sizeof(float), spread.data());
+    next.shading.spread.read(0, GL_RED, GL_FLOAT, spread.size() * sizeof(float), spread.data());
     Audit seen;
     seen.at = drawn.at;
     for (const uint32_t at : drawn.at) {
         seen.mean.push_back(float(luminance(Vec3(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]))));
-        seen.spread.push_back(spread[2 * at]);
+        seen.spread.push_back(spread[at]);
     }
     return seen;
 }
 
-// Some pixels without bias, and by the frame's own sampler.
+// Some pixels with more samples than the frame is thought to draw, and with as many.
 void Frame::audit(Job* job, Forecast* forecast) const {
     Result& next = *job->result;
     const Audit::Effort effort = Audit::effort(settings, forecast->covered, pace_.samples_per_millisecond);
     if (effort.part == 0) return;
     const Drawn drawn = draw(*job, effort.part);
     if (effort.samples > 0) {
-        Settings unbiased = settings;
-        unbiased.set_choice("sampler", "combined");
-        job->audit = shade_drawn(*job, drawn, unbiased, effort.samples, audit_seed);
         job->audited = effort.part;
-        next.plan.finished("audit", text(drawn.at.size(), " pixels without bias, to know the sampler's"), 0,
-                           drawn.at.size() * effort.samples, "samples");
+        look_closely(job, drawn, effort.samples);
     }
     if (effort.probe > 0) {
         const Audit seen = shade_drawn(*job, drawn, settings, effort.probe, settings.seed());
         std::vector<float> prediction(pixels() * 2);
         next.prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
-        std::vector<Probed> probed;
+        AuditSum sum;
         for (size_t k = 0; k < drawn.at.size(); ++k) {
             const double scale = scale_of(seen.mean[k], prediction[2 * drawn.at[k] + 1], forecast->mean_radiance);
             if (!(scale > 0)) continue;
-            Probed pixel{seen.spread[k] / scale, 0, 0};
-            if (effort.samples > 0) {
-                pixel.deviation = (seen.mean[k] - job->audit.mean[k]) / scale;
-                pixel.audit_spread = job->audit.spread[k] / scale;
+            const double told = std::pow(seen.spread[k] / scale, 2);
+            if (job->audited > 0) {
+                const double known = job->audit.mean[k] + dark_part * forecast->mean_radiance;
+                sum.add(job->audit.square((seen.mean[k] - job->audit.mean[k]) / known, job->audit.spread[k] / known, effort.probe), told);
+            } else {
+                sum.add(told, told);
             }
-            probed.push_back(pixel);
         }
-        forecast->probed_error = probed_error(probed, effort.samples > 0);
+        forecast->probed_error = sum.error();
+        forecast->probe_samples = effort.probe;
         next.plan.finished("probe", text(drawn.at.size(), " pixels, to know how much they vary"), 0, drawn.at.size() * effort.probe,
                            "samples");
     }
+}
+
+// Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost.
+bool Frame::audit_again(Job* job) const {
+    const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
+    if (job->audited == 0 || settings.time_budget() > 0 || planned == 0 || job->audit.tells_of(audit_reserve * planned)) return false;
+    look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
+    job->result->shading.clear(device_->gl());
+    return true;
+}
+
+void Frame::look_closely(Job* job, const Drawn& drawn, uint32_t samples) const {
+    Result& next = *job->result;
+    Settings closer = settings;
+    if (settings.sampler() == Sampler::filtered) closer.set_choice("sampler", "combined");
+    job->audit = shade_drawn(*job, drawn, closer, samples, audit_seed);
+    job->audit.samples = samples;
+    job->audit.biased = closer.sampler() == Sampler::cut;
+    next.plan.finished("audit", text(drawn.at.size(), " pixels more closely, to know how far the others err"), 0,
+                       drawn.at.size() * samples, "samples");
 }
 
 void Frame::rounds(Job* job, const Forecast& forecast) {
@@ -297,8 +333,9 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
         job->part = (1 - job->done) * (one ? 1.0 / settings.accumulate() : 0.5);
         const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
         list(job, &control, forecast);
-        if (job->list.total_samples >= job->samples + worth_new_points) points_seed = settings.seed() + next.stats.rounds - 1;
-        shade(job, points_seed);
+        if (job->drawn.pixels == 0 && next.stats.rounds > 1) break;
+        if (job->drawn.samples >= worth_new_points) points_seed = settings.seed() + next.stats.rounds - 1;
+        shade(job, {settings.seed() + next.stats.rounds - 1, points_seed});
         measure(job);
         cost.elapsed_milliseconds = next.plan.total_milliseconds();
         cost.shading_milliseconds = next.plan.milliseconds_of({"shade"}) - shaded;
@@ -318,7 +355,7 @@ void Frame::accumulate(Job* job) const {
     const uint64_t each = job->samples;
     for (uint32_t frame = 1; frame < frames; ++frame) {
         next.shading.clear(device_->gl());
-        shade(job, settings.seed() + frame);
+        shade(job, {settings.seed() + frame, settings.seed() + frame});
         add_radiance(next.shading.radiance, &scratch, &sum);
         job->samples += each;
         next.plan.count("shade", job->samples);

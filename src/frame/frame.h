@@ -52,10 +52,12 @@ private:
     Drawn draw(const Job& job, double part) const;
     Audit shade_drawn(const Job& job, const Drawn& drawn, const Settings& own, uint32_t samples, uint32_t seed) const;
     void audit(Job* job, Forecast* forecast) const;
+    bool audit_again(Job* job) const;
+    void look_closely(Job* job, const Drawn& drawn, uint32_t samples) const;
     void rounds(Job* job, const Forecast& forecast);
     void decide(Job* job, const Control& control, const Forecast& forecast) const;
     void list(Job* job, Control* control, const Forecast& forecast) const;
-    void shade(Job* job, uint32_t seed) const;
+    void shade(Job* job, const passes::Seeds& seeds) const;
     void measure(Job* job) const;
     void accumulate(Job* job) const;
     void finish(Job* job) const;

@@ -19,6 +19,7 @@ struct Frame::Result {
     ErrorEstimate estimate;
 
     RoundPixels read_round() const;
+    std::vector<uint8_t> levels() const;  // log2 of the spacing that each pixel asks for; empty where nothing was predicted
     std::vector<float> accumulated;  // RGBA means over several frames, where asked for
     Plan plan;
     lb_frame_stats stats = LB_FRAME_STATS_INIT;

@@ -25,7 +25,7 @@ Prediction::Prediction(const gl::Functions& gl, uint32_t width, uint32_t height,
 
 Shading::Shading(const gl::Functions& gl, uint32_t width, uint32_t height)
     : radiance(Texture::image(gl, GL_RGBA32F, width, height)),
-      spread(Texture::image(gl, GL_RG32F, width, height)),
+      spread(Texture::image(gl, GL_RGBA32F, width, height)),
       sample_count(Texture::image(gl, GL_R32UI, width, height)),
       decision(Texture::image(gl, GL_R8UI, width, height)) {}
 
@@ -33,7 +33,7 @@ void Shading::clear(const gl::Functions& gl) const {
     const float zeros[4] = {0, 0, 0, 0};
     const uint32_t none = 0;
     gl.ClearTexImage(radiance.name(), 0, GL_RGBA, GL_FLOAT, zeros);
-    gl.ClearTexImage(spread.name(), 0, GL_RG, GL_FLOAT, zeros);
+    gl.ClearTexImage(spread.name(), 0, GL_RGBA, GL_FLOAT, zeros);
     gl.ClearTexImage(sample_count.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
 }
 

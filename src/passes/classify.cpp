@@ -10,7 +10,7 @@ namespace {
 constexpr size_t header = 4;  // bent, saturated, two unused: before the histogram
 
 std::string definitions(const Settings& settings, const Prediction* prediction) {
-    std::string result = text("BINS ", budget_bins);
+    std::string result = text("BINS ", budget_bins, "\nSHARE_ONE ", share_one, "\nBINS_PER_OCTAVE ", bins_per_octave);
     if (prediction == nullptr) return result + "\nSHADE_ALL";
     result += text("\nPYRAMID_LEVELS ", prediction->rows.size());
     if (settings.sampler() == Sampler::cut) result += "\nSAMPLER_CUT";
@@ -32,13 +32,25 @@ Histogram Counts::bins() const {
     return sums;
 }
 
+Histogram Counts::fresh_bins() const {
+    Histogram sums(budget_bins);
+    for (size_t i = 0; i < histogram.size(); ++i)
+        if (i / budget_bins % 2 == 0) sums[i % budget_bins] += histogram[i];
+    return sums;
+}
+
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Forecast& forecast, double tolerance, double surprise, const Covered& covered,
+                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins, uint32_t width, const Covered& covered,
                 const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
-    const gl::Program& program = device.compute("classify", definitions(settings, prediction));
+    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + (former_bins.empty() ? "" : "\nFURTHER_ROUND"));
+    gl::Texture former;
+    if (!former_bins.empty()) {
+        former = gl::Texture::image(gl, GL_R8UI, width, uint32_t(former_bins.size() / width));
+        former.upload(width, uint32_t(former_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, former_bins.data());
+    }
     program.set("coarsest_level", int32_t(settings.coarsest_level()));
     program.set("witnesses", uint32_t(witnesses * 0x1p32));
     program.set("seed", settings.seed());
@@ -57,8 +69,7 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
         bind_texture(gl, 5, prediction->prediction);
         program.set("mean_radiance", float(forecast.mean_radiance));
         program.set("tolerance", float(tolerance));
-        bind_texture(gl, 6, target.radiance);
-        program.set("surprise", float(surprise));
+        if (!former_bins.empty()) bind_texture(gl, 6, former);
     }
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_image(gl, 3, target.sample_count, GL_R32UI);

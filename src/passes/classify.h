@@ -13,13 +13,15 @@ struct Counts {
     uint32_t bent = 0, saturated = 0;
     std::vector<uint32_t> histogram;  // (slot * 2 + whether a former round shaded it) * budget_bins + bin
 
-    Histogram bins() const;  // over all slots
+    Histogram bins() const;        // over all slots
+    Histogram fresh_bins() const;  // of what no former round shaded
 };
 
 // Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: the part of
-// those that might be interpolated that are shaded all the same. tolerance, surprise: shaders/classify.glsl.
+// those that might be interpolated that are shaded all the same. tolerance: shaders/classify.glsl. former_bins: of
+// the pixels that former rounds shaded; empty in the first.
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Forecast& forecast, double tolerance, double surprise, const Covered& covered,
+                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins, uint32_t width, const Covered& covered,
                 const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
 
 // The pixels to shade: slot by slot, those of former rounds apart, by falling sample count.

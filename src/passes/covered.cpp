@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "frame/decision.h"
 #include "passes/dispatch.h"
 
 namespace lightband::passes {
@@ -9,12 +10,6 @@ namespace {
 
 constexpr uint32_t group = 64;
 constexpr uint32_t most_groups = 65535;  // that every OpenGL 4.5 device takes in one dispatch
-
-uint32_t lattice_level(uint32_t x, uint32_t y, uint32_t coarsest) {
-    uint32_t level = 0;
-    while (level < coarsest && ((x | y) >> level & 1) == 0) ++level;
-    return level;
-}
 
 }  // namespace
 

@@ -12,7 +12,8 @@ namespace {
 constexpr uint64_t dispatch_samples = 1u << 23;
 
 std::string definitions(const Material& material, const Settings& settings) {
-    std::string result = material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples);
+    std::string result = material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples,
+                                                                               "\nWORTH_REDRAWING ", worth_redrawing, "u");
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
     switch (settings.sampler()) {
         case Sampler::cut:
@@ -65,15 +66,14 @@ void bind_sampler(const gl::Functions& gl, const Light& light, const Material& m
 
 }  // namespace
 
-void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t seed,
-           const ShadingList& list, bool first_round, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn) {
+void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
+           const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn) {
     const gl::Functions& gl = device.gl();
     uint64_t done = 0;
     for (const ShadingList::Part& part : list.parts) {
         const Material& material = *slots.materials[part.slot];
         const gl::Program& program = device.compute("shade", definitions(material, settings));
-        program.set("seed", seed);
-        program.set("spared", first_round ? 31u : 2u);
+        program.set("seed", seeds.samples);
         program.set_array("samples", list.samples.data(), int32_t(budget_bins));
         material.bind(program);
         bind_texture(gl, 0, scene.light->texture());
@@ -81,11 +81,11 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         bind_texture(gl, 5, gbuffer.position);
         bind_texture(gl, 6, gbuffer.normal);
         bind_texture(gl, 7, target.decision);
-        bind_sampler(gl, *scene.light, material, settings, seed, program);
+        bind_sampler(gl, *scene.light, material, settings, seeds.map_points, program);
         program.use();
         bind_image(gl, 0, target.radiance, GL_RGBA32F);
         bind_image(gl, 1, target.sample_count, GL_R32UI);
-        bind_image(gl, 2, target.spread, GL_RG32F);
+        bind_image(gl, 2, target.spread, GL_RGBA32F);
         for (uint32_t round = 0; round < part.longer.size(); ++round) {
             program.set("part", round);
             const uint32_t per_pixel = std::min(part_samples, *std::max_element(list.samples.begin(), list.samples.end()));
@@ -118,7 +118,7 @@ void upsample(gl::Device& device, const Camera& camera, const Settings& settings
     bind_image(gl, 0, target.radiance, GL_RGBA32F);
     bind_texture(gl, 4, target.sample_count);
     bind_image(gl, 1, prediction.levels, GL_R8UI);
-    bind_image(gl, 2, target.spread, GL_RG32F);
+    bind_image(gl, 2, target.spread, GL_RGBA32F);
     for (uint32_t level = settings.coarsest_level(); level-- > 0;) {
         program.set("level", int32_t(level));
         dispatch_covered(gl, program, covered, covered.levels[level]);

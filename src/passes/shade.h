@@ -10,8 +10,13 @@ namespace lightband::passes {
 // Called after each dispatch with the samples drawn so far; it throws to cancel.
 using Drawn = std::function<void(uint64_t samples)>;
 
-void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t seed,
-           const ShadingList& list, bool first_round, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn);
+// What chance depends on. Directions of the map are drawn once for each seed.
+struct Seeds {
+    uint32_t samples, map_points;
+};
+
+void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
+           const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn);
 
 void upsample(gl::Device& device, const Camera& camera, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
               const Prediction& prediction, const Shading& target);

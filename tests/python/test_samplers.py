@@ -147,7 +147,7 @@ def test_an_audit_finds_the_bias(context):
     texels[20:23, 40:43] = 500
     scene = scene_of(context, context.ggx(0.1, (0.9, 0.6, 0.3)), context.environment(texels))
     truth = rendered(context, scene, samples=4096, seed=9, sampler="combined", **EVERY)
-    frame = rendered(context, scene, samples=64, sampler="filtered", **EVERY)
+    frame = rendered(context, scene, samples=16, sampler="filtered", **EVERY)
     covered = truth.material > 0
     weights = np.array([0.2126, 0.7152, 0.0722])
     seen, true = (picture.color[covered][:, :3] @ weights for picture in (frame, truth))

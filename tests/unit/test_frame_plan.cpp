@@ -65,12 +65,13 @@ void budget_grows_with_the_share_within_its_limits(void**) {
     }
 }
 
-// Between the bounds a bin gets twice its lower neighbour's samples, each rounded by half a sample.
+// Between the bounds a bin gets twice the samples of that an octave lower, each rounded by half a sample.
 void budget_follows_the_shares(void**) {
     std::vector<uint64_t> histogram(budget_bins);
-    for (uint32_t bin = 30; bin < 36; ++bin) histogram[bin] = 1000;
+    for (uint32_t bin = 30; bin < 46; ++bin) histogram[bin] = 1000;
     const std::vector<uint32_t> samples = plan_mean(histogram, 500, 1 << 20);
-    for (uint32_t bin = 31; bin < 36; ++bin) check_close("twice", samples[bin], 2.0 * samples[bin - 1], 1.5);
+    for (uint32_t bin = 30 + bins_per_octave; bin < 46; ++bin)
+        check_close("twice", samples[bin], 2.0 * samples[bin - bins_per_octave], 1.5);
     // One bin alone gets the mean.
     std::vector<uint64_t> single(budget_bins);
     single[7] = 123;

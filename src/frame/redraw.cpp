@@ -1,0 +1,101 @@
+#include "frame/redraw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "frame/decision.h"
+
+namespace lightband {
+namespace {
+
+// Samples that know their own variance as well as the mean of all pixels does: a variance of n samples of a kurtosis of this much is
+// off by as much as itself at n = kurtosis, and pixels differ among each other by about as much.
+constexpr double telling_samples = 16;
+// Pixels are grouped by what they deserve over what they had, in steps of 2^(1 / 16).
+constexpr double steps_per_octave = 16;
+
+// A pixel that a former round drew.
+struct Candidate {
+    size_t at;
+    double samples, noise, deserved;  // noise: squared and relative, as often as it is interpolated from; deserved: samples
+};
+
+// Pixels that a pixel stands for: those of the lattice on which it lies, or of its own spacing.
+double area_of(size_t at, uint32_t width, const std::vector<uint8_t>& levels, uint32_t coarsest) {
+    if (levels.empty()) return 1;
+    const uint32_t level = std::min(lattice_level(uint32_t(at % width), uint32_t(at / width), coarsest), uint32_t(levels[at]));
+    return std::ldexp(1.0, int(2 * level));
+}
+
+std::vector<Candidate> candidates(const RoundPixels& pixels, double mean_luminance) {
+    std::vector<Candidate> result;
+    double sum = 0;
+    for (size_t i = 0; i < pixels.material.size(); ++i) {
+        if (!is_shaded(pixels.decision[i]) || pixels.sample_count[i] == 0) continue;
+        const double scale = scale_of(pixels, i, mean_luminance);
+        result.push_back({i, double(pixels.sample_count[i]), scale > 0 ? variance_of_mean(pixels, i) / (scale * scale) : 0, 0});
+        sum += result.back().noise;
+    }
+    for (Candidate& pixel : result) {
+        const double weight = pixel.samples / (pixel.samples + telling_samples);
+        pixel.noise = weight * pixel.noise + (1 - weight) * sum / double(result.size());
+    }
+    return result;
+}
+
+// The factor on what they deserve at which so much of their noise is left.
+double factor_leaving(double part, const std::vector<Candidate>& candidates) {
+    std::map<int, double> noise;  // by the logarithm of what is deserved over what was had
+    double all = 0;
+    for (const Candidate& pixel : candidates) {
+        if (!(pixel.deserved > 0)) continue;
+        noise[int(std::lround(steps_per_octave * std::log2(pixel.deserved / pixel.samples)))] += pixel.noise;
+        all += pixel.noise;
+    }
+    double low = -64, high = 64;
+    for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (low + high);
+        double left = 0;
+        for (const auto& [step, sum] : noise) {
+            const double octaves = middle + step / steps_per_octave;
+            left += octaves >= std::log2(double(worth_redrawing)) ? sum * std::exp2(-stratified_gain * octaves) : sum;
+        }
+        (left > part * all ? low : high) = middle;
+    }
+    return std::exp2(high);
+}
+
+}  // namespace
+
+Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uint32_t coarsest, double mean_luminance,
+              Allocation allocation, const Budget& budget, double part) {
+    Redraw result;
+    result.bins.resize(pixels.material.size());
+    std::vector<Candidate> drawn = candidates(pixels, mean_luminance);
+    double deserved = 0, had = 0;
+    for (Candidate& pixel : drawn) {
+        // Up to a factor: what would make all errors alike, or the last sample of each lessen the frame's by as much.
+        if (allocation == Allocation::constant_variance) {
+            pixel.deserved = pixel.samples * std::pow(pixel.noise, 1 / stratified_gain);
+        } else {
+            pixel.noise *= area_of(pixel.at, pixels.width, levels, coarsest);
+            pixel.deserved = pixel.samples * std::pow(pixel.noise / pixel.samples, 1 / (1 + stratified_gain));
+        }
+        deserved += pixel.deserved;
+        had += pixel.samples;
+    }
+    const double factor = !(deserved > 0) ? 0 : part > 0 ? factor_leaving(part, drawn) : had / deserved;
+    std::map<std::pair<uint32_t, uint32_t>, double> groups;
+    for (const Candidate& pixel : drawn) {
+        // The last bin whose samples are not more, but for rounding.
+        const auto after = std::upper_bound(budget.begin(), budget.end(), uint32_t(std::min(1.001 * factor * pixel.deserved, 0x1p31)));
+        const uint32_t bin = uint32_t(std::max<ptrdiff_t>(after - budget.begin(), 1) - 1);
+        result.bins[pixel.at] = uint8_t(bin);
+        ++groups[{bin, uint32_t(pixel.samples)}];
+    }
+    for (const auto& [key, count] : groups) result.drawn.push_back({key.first, key.second, count});
+    return result;
+}
+
+}  // namespace lightband

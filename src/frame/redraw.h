@@ -1,0 +1,20 @@
+// What a further round is to draw anew: the pixels at which more samples lessen the frame's error most, by what former rounds measured.
+#pragma once
+
+#include "frame/budget.h"
+#include "frame/estimate.h"
+
+namespace lightband {
+
+struct Redraw {
+    std::vector<uint8_t> bins;      // of the budget that each pixel moves to; meaningless where no former round drew
+    std::vector<DrawnGroup> drawn;  // those where one did
+};
+
+// budget: of the former round. part: of the noise that is to be left by it; 0: pixels move to bins so that on the whole they keep
+// what they had, and the budget is to be replanned. levels: log2 of the spacing that each pixel's bandwidth asks for; empty where
+// nothing is interpolated. coarsest: level of the frame.
+Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uint32_t coarsest, double mean_luminance,
+              Allocation allocation, const Budget& budget, double part);
+
+}  // namespace lightband
