@@ -9,6 +9,9 @@ layout(std140, binding = 0) uniform Trunks { vec4 trunk[2 * (TRUNK_PARTS + COARS
 // A part is halved further where, by the lobe at its centre, it alone brings more of what the pixel may expect than so many average
 // parts; among few parts, more than all that is expected.
 const float surprising = 16.0;
+// Near the horizon, by so much sine or its own width, a part's centre says little: half of the part may lie below, and measured tables
+// vary from cell to cell (a cell of a MERL table is a degree or two wide). There it may bring what the lobe's greatest value would.
+const float grazing = 0.03;
 
 // RGB; size: the parts that the cut is to have, about. coarser: the luminance of a cut of half as many.
 vec3 light_above(Pixel pixel, float size, out float coarser) {
@@ -31,7 +34,6 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
     }
     float scale = sum > 0.0 ? size / sum : 0.0, too_much = min(surprising / size, 1.0) * expected;
     vec3 light = vec3(0);
-    float usual = importance_albedo(pixel.view) / (2.0 * pi);  // the mean of the lobe over its hemisphere
     // One loop over all parts of both cuts, so that neighbours run equally long. place, depth: of a part in its heap; wanted: the
     // depth of the cut there; start: that of the coarser cut.
     uint k = 0u, heap = 0u, wanted = 0u, start = 0u, depth = 0u, place = 2u;
@@ -56,7 +58,7 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
         }
         vec4 flux = layer < LIGHT_LAYERS ? texelFetch(light_parts, index + 1 + layer) : vec4(0);
         float brightness = luminance(value);
-        if (abs(wi.z) < part.w) brightness = max(brightness, usual);  // the horizon cuts it
+        if (abs(wi.z) < part.w + grazing) brightness = max(brightness, lobe_peak(pixel.view, middle_above(wi, part.w)));
         bool surprises = too_much > 0.0 && luminance(flux.rgb) * brightness > too_much;
         // The coarser cut has the parts at which this one starts; of one that surprises, its halves.
         if (depth == start) halved = surprises;

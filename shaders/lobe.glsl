@@ -6,15 +6,20 @@ int lobe_view(float cos_outgoing) { return min(int(polar_angle(cos_outgoing) * (
 
 layout(binding = 12) uniform samplerBuffer lobe_importances;  // src/sampling/lobe_sampler.h, LobeImportance
 
-// Mean luminance of f cos(theta_i) around a direction above the horizon.
-float lobe_importance(int view, vec3 wi) {
+int importance_cell(int view, vec3 wi) {
     vec2 p = wi.xy / (abs(wi.x) + abs(wi.y) + wi.z);
     ivec2 cell = min(ivec2((0.5 * vec2(p.x + p.y, p.x - p.y) + 0.5) * IMPORTANCE_SIDE), IMPORTANCE_SIDE - 1);
-    return texelFetch(lobe_importances, (view * IMPORTANCE_SIDE + cell.y) * IMPORTANCE_SIDE + cell.x).r;
+    return (view * IMPORTANCE_SIDE + cell.y) * IMPORTANCE_SIDE + cell.x;
+}
+
+// Mean and greatest luminance of f cos(theta_i) around a direction above the horizon.
+float lobe_importance(int view, vec3 wi) { return texelFetch(lobe_importances, importance_cell(view, wi)).r; }
+float lobe_peak(int view, vec3 wi) {
+    return texelFetch(lobe_importances, LOBE_VIEWS * IMPORTANCE_SIDE * IMPORTANCE_SIDE + importance_cell(view, wi)).r;
 }
 
 // The integral of that over a view's directions.
-float importance_albedo(int view) { return texelFetch(lobe_importances, LOBE_VIEWS * IMPORTANCE_SIDE * IMPORTANCE_SIDE + view).r; }
+float importance_albedo(int view) { return texelFetch(lobe_importances, 2 * LOBE_VIEWS * IMPORTANCE_SIDE * IMPORTANCE_SIDE + view).r; }
 
 #if defined(LOBE_TABLE)
 

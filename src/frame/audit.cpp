@@ -23,16 +23,17 @@ constexpr double shown_of_audit = 0.3;
 // Below so many times a pixel's own samples, an audit says more of itself.
 constexpr double least_gain = 1.8;
 
-// Sampled by the map's clusters, a pixel errs by 0.5 to 1 over the square root of its samples: by about the target, with so many parts
-// of its inverse square.
-constexpr double unbiased_share = 0.5;
-// A pixel of n samples of a cut errs by 0.2 to 0.4 of n^(-g / 2): a probe has about as many as will be planned.
+// A pixel of n samples of a cut errs by 0.2 to 0.4 of n^(-g / 2): a probe has about as many as will be planned. Sampled by the map's
+// clusters it errs by 0.5 to 1 over the square root of its samples: as much, with so many times n^g.
+constexpr double unbiased_share = 5;
 constexpr double expected_error = 0.3, least_probe = 16, most_probe = 512;
 // Part of a frame's time.
 constexpr double part_of_time = 0.06;
 
 // What pixels err by over what their spreads tell, before any audit: as much, give or take as much again.
 constexpr double expected_doubt = 1;
+
+double believed_square(double value) { return std::min(value * value, AuditSum::largest_square); }
 
 uint32_t hash(uint32_t value) {
     const uint32_t state = value * 747796405u + 2891336453u, word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
@@ -45,18 +46,21 @@ bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part) {
     return hash((y << 16 | x) ^ hash(seed)) < part * 0x1p32;
 }
 
-bool Audit::tells_of(double own_samples) const { return own_samples > 0 && (!biased || samples >= least_gain * own_samples); }
+bool Audit::knows_better(double own_samples) const { return samples >= least_gain * own_samples; }
 
-double Audit::square(double deviation, double audit_spread, double own_samples) const {
-    const double square = std::min(deviation * deviation, AuditSum::largest_square);
-    if (!biased) return square - std::min(audit_spread * audit_spread, AuditSum::largest_square);
+double Audit::square(const Pixel& pixel, double shown, double scale, double own_samples) const {
+    const double square = believed_square((shown - pixel.mean) / scale);
+    if (!pixel.biased) return square - believed_square(pixel.spread / scale);
     return square / (1 + shown_of_audit * std::pow(own_samples / samples, stratified_gain));
 }
 
-double Audit::square_of_other(double deviation, double audit_spread, double drawn, double own_samples) const {
-    const double square = std::min(deviation * deviation, AuditSum::largest_square);
-    return square - (biased ? drawn * std::pow(own_samples / samples, stratified_gain)
-                            : std::min(audit_spread * audit_spread, AuditSum::largest_square));
+double Audit::square_of_other(const Pixel& pixel, double shown, double scale, double drawn, double own_samples) const {
+    const double square = believed_square((shown - pixel.mean) / scale);
+    return square - (pixel.biased ? drawn * std::pow(own_samples / samples, stratified_gain) : believed_square(pixel.spread / scale));
+}
+
+uint32_t Audit::unbiased_samples(double probe) {
+    return uint32_t(std::clamp(unbiased_share * std::pow(probe, stratified_gain), fewest, most));
 }
 
 Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, double samples_per_millisecond) {
@@ -65,19 +69,22 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
     const bool planned = settings.method() == Method::adaptive && target > 0;
     if (covered_pixels == 0 || !(biased || planned)) return {};
     double pixels = std::min(least_pixels + part_beyond * covered_pixels, std::max(most_part * covered_pixels, least_pixels));
-    double samples = gain * settings.samples() * settings.accumulate(), probe = 0;
+    double probe = double(settings.samples()) * settings.accumulate(), samples = gain * probe;
     if (target > 0) {
         probe = std::clamp(std::pow(expected_error / target, 2 / stratified_gain), least_probe, most_probe);
-        samples = cut ? gain * probe : unbiased_share / (target * target);
+        samples = gain * probe;
     }
+    if (!cut) samples = unbiased_samples(probe);
     if (settings.time_budget() > 0) {
         const double affordable = part_of_time * settings.time_budget() * samples_per_millisecond;
         if (!(target > 0)) samples = most;
         samples = std::min(samples, affordable / pixels - Pace::pixel_samples);
         pixels = std::min(pixels, affordable / (fewest + Pace::pixel_samples));
     }
-    return {std::min(pixels / covered_pixels, most_covered), biased ? uint32_t(std::clamp(samples, fewest, most)) : 0,
-            planned ? uint32_t(probe) : 0};
+    samples = std::clamp(samples, fewest, most);
+    // Where time is short there is none for a probe.
+    probe = !planned && (!cut || settings.time_budget() > 0) ? 0 : cut ? samples / gain : probe;
+    return {std::min(pixels / covered_pixels, most_covered), biased ? uint32_t(samples) : 0, uint32_t(probe)};
 }
 
 void AuditSum::add(double square, double told) {

@@ -13,18 +13,22 @@ namespace lightband {
 bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part);
 
 struct Audit {
-    std::vector<uint32_t> at;   // y * width + x
-    std::vector<float> mean;    // luminance
-    std::vector<float> spread;  // half the difference of its two replicates
-    uint32_t samples = 0;       // of each pixel
-    bool biased = false;        // whether by the frame's own sampler, which errs as it does, but less
+    // Luminance, and half the difference of its two replicates.
+    struct Pixel {
+        uint32_t at;  // y * width + x
+        float mean, spread;
+        bool biased;  // whether by the frame's own sampler, which errs as it does, but less
+    };
+    std::vector<Pixel> pixels;
+    uint32_t samples = 0;  // of those that are biased
 
-    // A pixel's squared error, from its deviation from the audit; both it and audit_spread are relative to what the pixel shows.
-    double square(double deviation, double audit_spread, double own_samples) const;
-    // The same of what does not err as the audit does. drawn: square of the pixel that was drawn there.
-    double square_of_other(double deviation, double audit_spread, double drawn, double own_samples) const;
+    // The squared error of a pixel that shows so much, relative to `scale`.
+    double square(const Pixel& pixel, double shown, double scale, double own_samples) const;
+    // The same of what does not err as the audit does. drawn: the square of what was drawn there.
+    double square_of_other(const Pixel& pixel, double shown, double scale, double drawn, double own_samples) const;
     // Whether it knows better than a pixel of so many samples.
-    bool tells_of(double own_samples) const;
+    bool tells_of(const Pixel& pixel, double own_samples) const { return own_samples > 0 && (!pixel.biased || knows_better(own_samples)); }
+    bool knows_better(double own_samples) const;
 
     // Which part of the pixels is looked at; with how many samples each; and with how many to know how much they vary (0 where nothing
     // is asked for that this would help to plan).
@@ -36,6 +40,10 @@ struct Audit {
     static Effort effort(const Settings& settings, double covered_pixels, double samples_per_millisecond);
     // Samples that an audit draws for each of a pixel's own.
     static constexpr double gain = 4;
+    // Where probe and audit disagree most, of a part of the pixels, the audit is repeated by a sampler without bias: light that a cut
+    // misses for long shows there first. So many samples err less than a probe's.
+    static constexpr double doubted_part = 0.1;
+    static uint32_t unbiased_samples(double probe);
 };
 
 // What audited pixels err by over what their spreads tell.

@@ -22,7 +22,7 @@ constexpr double tolerance_share = 1.2, least_tolerance = 0.03, most_tolerance =
 constexpr double interpolation_share = 0.3, most_interpolation = 0.5;
 // Rounds aim below what was asked, by what the estimate may miss. The last is one that is thought to come this near, or, with all
 // that is in doubt, that near.
-constexpr double aim = 0.83, near_enough = 0.87, good_enough = 0.95;
+constexpr double aim = 0.8, near_enough = 0.85, good_enough = 0.93;
 // Standard errors of interpolation's estimate that are added before a round is called good enough.
 constexpr double caution = 1;
 constexpr uint32_t most_rounds = 8;
@@ -121,23 +121,36 @@ double Control::first_cost(double pixels) const {
 
 bool Control::reconsider(const Histogram& histogram, double elapsed) {
     if (round_ > 0 || settings_.bandwidth_scale() > 0) return false;
-    if (settings_.target_error() > 0) return stop_interpolating(total(histogram));
-    return settings_.time_budget() > 0 && coarsen(total(histogram), elapsed);
-}
-
-// Interpolation takes a share of the error, and so more samples of each pixel: it pays where it spares more pixels than that.
-bool Control::stop_interpolating(double shaded) {
-    if (!(forecast_.probed_error > 0)) return false;
-    const double interpolating = first_cost(shaded);
-    interpolates_ = false;
-    interpolates_ = interpolating < first_cost(forecast_.covered);
+    const double shaded = total(histogram);
+    if (settings_.target_error() > 0) {
+        interpolates_ = interpolates_ && pays(shaded);
+        return !interpolates_;
+    }
+    if (settings_.time_budget() <= 0) return false;
+    // Samples that there is time for, those included that a pixel costs before its first one.
+    const double light = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0) * pace_.samples_per_millisecond;
+    if (coarsen(shaded, light)) return true;
+    interpolates_ = interpolates_ && pays_in_time(shaded, light);
     return !interpolates_;
 }
 
-bool Control::coarsen(double shaded, double elapsed) {
-    const double left = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0);
-    const double affordable = left * pace_.samples_per_millisecond / (Pace::pixel_samples + fewest_in_time);
-    const double part = affordable / std::max(shaded, 1.0);
+// Interpolation takes a share of the error, and so more samples of each pixel: it pays where it spares more pixels than that.
+bool Control::pays(double shaded) {
+    if (!(forecast_.probed_error > 0)) return true;
+    const double interpolating = first_cost(shaded);
+    interpolates_ = false;
+    const double shading = first_cost(forecast_.covered);
+    interpolates_ = true;
+    return interpolating < shading;
+}
+
+bool Control::pays_in_time(double shaded, double light) const {
+    const double each = light / std::max(shaded, 1.0) - Pace::pixel_samples, of_all = light / forecast_.covered - Pace::pixel_samples;
+    return of_all < least_samples || each * reached_by_more(held_by_first * (1 - interpolation_share)) > of_all;
+}
+
+bool Control::coarsen(double shaded, double light) {
+    const double part = light / (Pace::pixel_samples + fewest_in_time) / std::max(shaded, 1.0);
     if (part >= 1) return false;
     // Pixels shaded grow about as the scale.
     for (float& scale : scales_) scale *= float(std::max(part, least_part));

@@ -75,8 +75,9 @@ private:
     double first_noise() const;
     double predicted_goal(const Histogram& histogram) const;
     double first_cost(double pixels) const;
-    bool stop_interpolating(double shaded);
-    bool coarsen(double shaded, double elapsed);
+    bool pays(double shaded);
+    bool pays_in_time(double shaded, double light) const;
+    bool coarsen(double shaded, double light);
     double time_to_shade(double elapsed) const;
     double first_scale(double elapsed);
 

@@ -50,17 +50,16 @@ struct Audited {
 // frames: over which the picture is a mean.
 std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit, uint32_t frames, const ErrorEstimate& estimate) {
     std::vector<Audited> result;
-    for (size_t k = 0; k < audit.at.size(); ++k) {
-        const size_t i = audit.at[k];
+    for (const Audit::Pixel& seen : audit.pixels) {
+        const size_t i = seen.at;
         const double scale = scale_of(pixels, i, estimate.mean_luminance), samples = double(pixels.sample_count[i]) * frames;
         // An audit knows better than pilots what the pixel should show.
-        const double known = audit.mean[k] + dark_part * estimate.mean_luminance;
-        if (!(scale > 0) || !(known > 0) || !audit.tells_of(samples)) continue;
-        const double deviation = luminance_at(pixels, i) - audit.mean[k], spread = audit.spread[k] / known;
-        Audited pixel{i, scale, audit.square(deviation / known, spread, samples), 0};
-        if (is_witness(pixels.decision[i]))
-            pixel.interpolated = audit.square_of_other((deviation + pixels.spread[4 * i + 1]) / known, spread, pixel.drawn, samples);
-        result.push_back(pixel);
+        const double known = seen.mean + dark_part * estimate.mean_luminance;
+        if (!(scale > 0) || !(known > 0) || !audit.tells_of(seen, samples)) continue;
+        const double shown = luminance_at(pixels, i), drawn = audit.square(seen, shown, known, samples);
+        const bool witness = is_witness(pixels.decision[i]);
+        result.push_back({i, scale, drawn,
+                          witness ? audit.square_of_other(seen, shown + pixels.spread[4 * i + 1], known, drawn, samples) : 0});
     }
     return result;
 }

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "frame/redraw.h"
-#include "frame/result.h"
+#include "frame/job.h"
 #include "passes/gbuffer.h"
 
 namespace lightband {
@@ -22,12 +21,6 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
 // much as half a million samples or so.
 constexpr uint64_t worth_new_points = 1u << 23;
 
-// So many times what a first round plans on average is drawn at some pixels, or by the next.
-constexpr double audit_reserve = 1.4;
-
-// An audit draws its own directions of the map, the same for every frame, so that they are drawn once.
-constexpr uint32_t audit_seed = 0x61756469;
-
 }  // namespace
 
 Frame::Frame(gl::DevicePtr device, uint32_t width, uint32_t height)
@@ -41,32 +34,6 @@ const Frame::Result& Frame::result() const {
     if (result_ == nullptr) throw Error(LB_ERROR_INVALID_STATE, "the frame has not been rendered yet");
     return *result_;
 }
-
-// What the steps of one render call share.
-struct Frame::Job {
-    const Scene& scene;
-    const Progress& progress;
-    const std::shared_ptr<Result> result;
-    Settings settings;  // of its rounds: the frame's, but without interpolation where that does not pay
-    const Scene::Slots slots;
-    const passes::SlotTable slot_of;
-    passes::Covered covered{};
-    passes::Counts counts{};
-    passes::ShadingList list{};              // of the last round
-    RoundPixels pixels{};                    // as the last round left them
-    Redraw redraw{};                         // what a further round knows of it
-    Redrawing drawn{};                       // of the last round, as planned
-    uint64_t samples = 0;                    // of the picture as it is
-    RoundCost cost{};                        // of the last round
-    Audit audit{};
-    double audited = 0;                      // part of the pixels
-    double done = 0, part = 0;               // of the progress: before this round, and the round's own
-
-    void report(double fraction) const {
-        if (progress && progress(std::min(done + part * fraction, 1.0)))
-            throw Error(LB_ERROR_CANCELLED, "the progress callback cancelled the frame");
-    }
-};
 
 void Frame::render(const Scene& scene, const Progress& progress) {
     if (scene.device() != device_) throw Error(LB_ERROR_INVALID_ARGUMENT, "scene belongs to another context than frame");
@@ -122,13 +89,13 @@ void Frame::finish(Job* job) const {
     stats.device_bytes = job->scene.device_bytes() + next.gbuffer.bytes() + job->covered.entries.bytes() +
                          (next.prediction ? next.prediction->bytes() : 0) + next.shading.bytes() + job->list.entries.bytes();
     stats.milliseconds = next.plan.total_milliseconds();
-    stats.bandwidth_milliseconds =
-        next.plan.milliseconds_of({"environment", "bandwidth", "probe", "audit", "pyramids", "classify", "list", "estimate"});
+    stats.bandwidth_milliseconds = next.plan.milliseconds_of(
+        {"environment", "bandwidth", "probe", "audit", "doubt", "pyramids", "classify", "list", "estimate"});
     stats.shading_milliseconds = next.plan.milliseconds_of({"shade"});
     stats.error = next.estimate.error();
     stats.noise_error = std::sqrt(next.estimate.noise + std::min(next.estimate.bias, 0.0));
     stats.interpolation_error = std::sqrt(next.estimate.interpolation);
-    stats.audited_pixels = uint32_t(job->audit.at.size());
+    stats.audited_pixels = uint32_t(job->audit.pixels.size());
     stats.bias_error = std::sqrt(std::max(next.estimate.bias, 0.0));
 }
 
@@ -151,7 +118,8 @@ Forecast Frame::predict(Job* job) const {
 void Frame::decide(Job* job, const Control& control, const Forecast& forecast) const {
     Result& next = *job->result;
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
-    if (prediction != nullptr) {
+    if (prediction != nullptr && job->scales != control.scales()) {
+        job->scales = control.scales();
         passes::pyramids(*device_, forecast, control.scales(), settings, next.gbuffer, width_, height_, *prediction);
         const auto [least, most] = std::minmax_element(control.scales().begin(), control.scales().end());
         next.plan.finished("pyramids",
@@ -159,8 +127,8 @@ void Frame::decide(Job* job, const Control& control, const Forecast& forecast) c
                            prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
     }
     job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), job->settings,
-                                   std::max(control.witnesses(), job->audited), forecast, control.tolerance(), job->redraw.bins, width_, job->covered,
-                                   next.gbuffer, prediction, next.shading);
+                                   std::max(control.witnesses(), job->audited), forecast, control.tolerance(), job->redraw.bins, width_,
+                                   job->covered, next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
 }
@@ -177,9 +145,9 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
         decide(job, *control, forecast);
     }
     const double elapsed = next.plan.total_milliseconds();
-    const Budget& budget =
-        first ? control->plan(job->counts.bins(), elapsed) : control->plan_further(job->redraw.drawn, job->counts.fresh_bins(), elapsed);
-    job->drawn = redrawing(job->redraw.drawn, job->counts.fresh_bins(), budget);
+    const Histogram fresh = job->counts.fresh_bins();
+    const Budget& budget = first ? control->plan(fresh, elapsed) : control->plan_further(job->redraw.drawn, fresh, elapsed);
+    job->drawn = redrawing(job->redraw.drawn, fresh, budget);
     if (first && audit_again(job)) decide(job, *control, forecast);
     job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, job->covered, next.gbuffer,
                                      next.shading);
@@ -222,101 +190,6 @@ void Frame::measure(Job* job) const {
                        text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
                             std::sqrt(next.estimate.interpolation), ", by bias ", std::sqrt(std::max(next.estimate.bias, 0.0))),
                        0, this->pixels(), "pixels");
-}
-
-// Pixels drawn by chance, and shaded all alike.
-struct Frame::Drawn {
-    std::vector<uint32_t> at;                           // y * width + x
-    std::vector<std::vector<uint32_t>> pixels_of_slot;  // y << 16 | x
-};
-
-Frame::Drawn Frame::draw(const Job& job, double part) const {
-    const Result& next = *job.result;
-    std::vector<uint8_t> material(pixels());
-    next.gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, material.size(), material.data());
-    Drawn drawn;
-    drawn.pixels_of_slot.resize(job.slots.materials.size());
-    for (uint32_t y = 0; y < height_; ++y)
-        for (uint32_t x = 0; x < width_; ++x) {
-            const uint32_t at = y * width_ + x;
-            if (material[at] == 0 || !is_drawn(x, y, settings.seed(), part)) continue;
-            drawn.pixels_of_slot[next.slot_of[material[at] - 1u]].push_back(y << 16 | x);
-            drawn.at.push_back(at);
-        }
-    return drawn;
-}
-
-// Into targets that the rounds will write anew.
-Audit Frame::shade_drawn(const Job& job, const Drawn& drawn, const Settings& own, uint32_t samples, uint32_t seed) const {
-    const Result& next = *job.result;
-    next.shading.clear(device_->gl());
-    next.shading.decide_all(device_->gl());
-    const passes::ShadingList list = passes::even_list(*device_, drawn.pixels_of_slot, samples);
-    passes::shade(*device_, job.scene, job.slots, own, {seed, seed}, list, next.gbuffer, next.shading,
-                  [&](uint64_t) { job.report(0); });
-    std::vector<float> radiance(pixels() * 4), spread(pixels());
-    next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
-    next.shading.spread.read(0, GL_RED, GL_FLOAT, spread.size() * sizeof(float), spread.data());
-    Audit seen;
-    seen.at = drawn.at;
-    for (const uint32_t at : drawn.at) {
-        seen.mean.push_back(float(luminance(Vec3(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]))));
-        seen.spread.push_back(spread[at]);
-    }
-    return seen;
-}
-
-// Some pixels with more samples than the frame is thought to draw, and with as many.
-void Frame::audit(Job* job, Forecast* forecast) const {
-    Result& next = *job->result;
-    const Audit::Effort effort = Audit::effort(settings, forecast->covered, pace_.samples_per_millisecond);
-    if (effort.part == 0) return;
-    const Drawn drawn = draw(*job, effort.part);
-    if (effort.samples > 0) {
-        job->audited = effort.part;
-        look_closely(job, drawn, effort.samples);
-    }
-    if (effort.probe > 0) {
-        const Audit seen = shade_drawn(*job, drawn, settings, effort.probe, settings.seed());
-        std::vector<float> prediction(pixels() * 2);
-        next.prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
-        AuditSum sum;
-        for (size_t k = 0; k < drawn.at.size(); ++k) {
-            const double scale = scale_of(seen.mean[k], prediction[2 * drawn.at[k] + 1], forecast->mean_radiance);
-            if (!(scale > 0)) continue;
-            const double told = std::pow(seen.spread[k] / scale, 2);
-            if (job->audited > 0) {
-                const double known = job->audit.mean[k] + dark_part * forecast->mean_radiance;
-                sum.add(job->audit.square((seen.mean[k] - job->audit.mean[k]) / known, job->audit.spread[k] / known, effort.probe), told);
-            } else {
-                sum.add(told, told);
-            }
-        }
-        forecast->probed_error = sum.error();
-        forecast->probe_samples = effort.probe;
-        next.plan.finished("probe", text(drawn.at.size(), " pixels, to know how much they vary"), 0, drawn.at.size() * effort.probe,
-                           "samples");
-    }
-}
-
-// Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost.
-bool Frame::audit_again(Job* job) const {
-    const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
-    if (job->audited == 0 || settings.time_budget() > 0 || planned == 0 || job->audit.tells_of(audit_reserve * planned)) return false;
-    look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
-    job->result->shading.clear(device_->gl());
-    return true;
-}
-
-void Frame::look_closely(Job* job, const Drawn& drawn, uint32_t samples) const {
-    Result& next = *job->result;
-    Settings closer = settings;
-    if (settings.sampler() == Sampler::filtered) closer.set_choice("sampler", "combined");
-    job->audit = shade_drawn(*job, drawn, closer, samples, audit_seed);
-    job->audit.samples = samples;
-    job->audit.biased = closer.sampler() == Sampler::cut;
-    next.plan.finished("audit", text(drawn.at.size(), " pixels more closely, to know how far the others err"), 0,
-                       drawn.at.size() * samples, "samples");
 }
 
 void Frame::rounds(Job* job, const Forecast& forecast) {

@@ -46,14 +46,16 @@ public:
 private:
     struct Result;
     struct Job;  // a render call on its way
-    struct Drawn;
     const Result& result() const;
     Forecast predict(Job* job) const;
-    Drawn draw(const Job& job, double part) const;
-    Audit shade_drawn(const Job& job, const Drawn& drawn, const Settings& own, uint32_t samples, uint32_t seed) const;
+    std::vector<uint32_t> draw(const Job& job, double part) const;
+    std::vector<Audit::Pixel> shade_alike(const Job& job, const std::vector<uint32_t>& drawn, const Settings& own, uint32_t samples,
+                                          uint32_t seed) const;
     void audit(Job* job, Forecast* forecast) const;
+    double probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const;
+    void look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const;
+    void doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32_t probe_samples, double mean_radiance) const;
     bool audit_again(Job* job) const;
-    void look_closely(Job* job, const Drawn& drawn, uint32_t samples) const;
     void rounds(Job* job, const Forecast& forecast);
     void decide(Job* job, const Control& control, const Forecast& forecast) const;
     void list(Job* job, Control* control, const Forecast& forecast) const;

@@ -40,14 +40,15 @@ Histogram Counts::fresh_bins() const {
 }
 
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins, uint32_t width, const Covered& covered,
-                const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
+                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
+                uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
-    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + (former_bins.empty() ? "" : "\nFURTHER_ROUND"));
+    const bool further = !former_bins.empty();
+    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + (further ? "\nFURTHER_ROUND" : ""));
     gl::Texture former;
-    if (!former_bins.empty()) {
+    if (further) {
         former = gl::Texture::image(gl, GL_R8UI, width, uint32_t(former_bins.size() / width));
         former.upload(width, uint32_t(former_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, former_bins.data());
     }
@@ -69,7 +70,7 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
         bind_texture(gl, 5, prediction->prediction);
         program.set("mean_radiance", float(forecast.mean_radiance));
         program.set("tolerance", float(tolerance));
-        if (!former_bins.empty()) bind_texture(gl, 6, former);
+        if (further) bind_texture(gl, 6, former);
     }
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_image(gl, 3, target.sample_count, GL_R32UI);

@@ -21,8 +21,8 @@ struct Counts {
 // those that might be interpolated that are shaded all the same. tolerance: shaders/classify.glsl. former_bins: of
 // the pixels that former rounds shaded; empty in the first.
 Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins, uint32_t width, const Covered& covered,
-                const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
+                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
+                uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
 
 // The pixels to shade: slot by slot, those of former rounds apart, by falling sample count.
 struct ShadingList {

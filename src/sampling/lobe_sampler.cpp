@@ -175,6 +175,7 @@ LobeImportance lobe_importance(const Brdf& brdf) {
     if (auto* ggx = std::get_if<Ggx>(&smooth)) ggx->alpha = std::max(ggx->alpha, 1.0 / side);
     LobeImportance result;
     result.values.resize(size_t(LobeTable::views) * side * side);
+    result.peaks.resize(result.values.size());
     for (int view = 0; view < LobeTable::views; ++view) {
         const double theta = (view + 0.5) / LobeTable::views * pi / 2;
         const Vec3 wo(std::sin(theta), 0, std::cos(theta));
@@ -183,7 +184,9 @@ LobeImportance lobe_importance(const Brdf& brdf) {
             for (int x = 0; x < fine; ++x) {
                 const Vec3 wi = HemiOctahedral::to_direction(Vec2(x + 0.5, y + 0.5) / double(fine));
                 const double value = luminance(evaluate(smooth, wi, wo)) * wi.z, reach = std::abs(wi.x) + std::abs(wi.y) + wi.z;
-                result.values[size_t((view * side + y / supersampling) * side + x / supersampling)] += float(value / (supersampling * supersampling));
+                const size_t cell = size_t((view * side + y / supersampling) * side + x / supersampling);
+                result.values[cell] += float(value / (supersampling * supersampling));
+                result.peaks[cell] = std::max(result.peaks[cell], float(value));
                 albedo += value * 2 * reach * reach * reach / (fine * fine);  // the square's point covers 2 reach^3 steradians
             }
         result.albedos.push_back(float(albedo));

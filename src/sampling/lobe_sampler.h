@@ -35,11 +35,11 @@ struct LobeTable {
 LobeTable lobe_table(const Brdf& brdf);
 
 // How much of the light from each direction a lobe reflects, coarsely: means of the luminance of f cos(theta_i) over the cells of
-// the square of incident directions (docs/conventions.md), for each of LobeTable::views.
+// the square of incident directions (docs/conventions.md), and the greatest that was seen there, for each of LobeTable::views.
 struct LobeImportance {
     static constexpr int side = 16;
-    std::vector<float> values;   // views * side * side
-    std::vector<float> albedos;  // of each view: the integral of its values
+    std::vector<float> values, peaks;  // views * side * side
+    std::vector<float> albedos;        // of each view: the integral of its values
 };
 
 LobeImportance lobe_importance(const Brdf& brdf);

@@ -68,6 +68,7 @@ void Material::bind_importance() const {
     if (!importance_) {
         const LobeImportance importance = lobe_importance(brdf_);
         std::vector<float> all = importance.values;
+        all.insert(all.end(), importance.peaks.begin(), importance.peaks.end());
         all.insert(all.end(), importance.albedos.begin(), importance.albedos.end());
         importance_ = gl::Buffer(device_->gl(), all.size() * sizeof(float), all.data());
         importance_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, importance_);

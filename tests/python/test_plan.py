@@ -28,8 +28,8 @@ def passes(frame):
 
 def test_an_adaptive_frame(context, sphere):
     frame = rendered(context, sphere, samples=16)
-    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "pyramids", "classify", "list", "shade", "upsample",
-                             "estimate"]
+    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "probe", "doubt", "pyramids", "classify", "list",
+                             "shade", "upsample", "estimate"]
     assert frame.stats.rounds == 1
 
 
@@ -61,16 +61,24 @@ def test_rounds_repeat_passes_and_add_none(context, sphere):
     frame.render(sphere)  # the first time, tables and shaders take what there is
     assert frame.stats.rounds == 2
     once = passes(rendered(context, sphere, samples=16))
-    assert passes(frame) == once
-    # An error that is asked for is planned from a probe.
-    assert passes(rendered(context, sphere, target_error=0.05)) == [*once[:5], "probe", *once[5:]]
+    # Where time is short there is none for a probe; where it is plenty, every pixel is shaded.
+    spared = {"probe", "doubt"} | ({"upsample"} if frame.stats.shaded_pixels == frame.stats.covered_pixels else set())
+    assert passes(frame) == [name for name in once if name not in spared]
+    assert passes(rendered(context, sphere, target_error=0.05)) == once
+
+
+def test_where_interpolation_does_not_pay_nothing_is_interpolated(context, sphere):
+    """An error so small that nearly every pixel is to be shaded is reached sooner where all are."""
+    frame = rendered(context, sphere, target_error=0.001)
+    assert frame.stats.shaded_pixels == frame.stats.covered_pixels and "upsample" not in passes(frame)
+    assert rendered(context, sphere, target_error=0.05).stats.shaded_pixels < frame.stats.shaded_pixels
 
 
 def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):
     """The map's directions, 65,536 of 32 bytes, and 64 clusters of as many are made when they are first asked for."""
     before = rendered(context, sphere, samples=16, coarsest_level=0, sampler="brdf").stats.device_bytes
     after = rendered(context, sphere, samples=16, coarsest_level=0, sampler="combined").stats.device_bytes
-    importance = 64 * (16 * 16 + 1) * 4  # of each view, cells and their integral
+    importance = 64 * (2 * 16 * 16 + 1) * 4  # of each view, means and peaks of cells, and their integral
     assert after - before == 65536 * 32 + 64 * 32 + importance
 
 

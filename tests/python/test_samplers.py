@@ -126,7 +126,7 @@ def test_tables_are_made_when_they_are_asked_for(context):
     texels = sum((128 >> level) ** 2 for level in range(8))
     sizes = [rendered(context, scene, samples=16, sampler=sampler, **EVERY).stats.device_bytes
              for sampler in ("brdf", "filtered", "combined", "cut")]
-    importance = 64 * (16 * 16 + 1) * 4  # of each view, cells and their integral
+    importance = 64 * (2 * 16 * 16 + 1) * 4  # of each view, means and peaks of cells, and their integral
     points = 65536 * 32 + 64 * 32  # the audits of both biased samplers draw some pixels by the map's points
     tree = (64 + 32) * (512 * (4 + 8 * 4) * 4 + 32)  # two trunks, each of whose parts has a heap
     assert sizes[1] - sizes[0] == 16 * texels + points + importance

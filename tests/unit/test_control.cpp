@@ -152,7 +152,7 @@ void noise_asks_for_samples_and_interpolation_for_levels(void**) {
 // Few witnesses may see an error by chance: while there is noise to blame, a tile's are not believed alone.
 void a_single_witness_is_doubted_while_there_is_noise(void**) {
     const Settings settings = asking("target_error", 0.05);
-    const double allowed = 0.7 * 0.0415 * 0.0415;  // noise, as Control shares it
+    const double allowed = 0.7 * 0.04 * 0.04;  // noise, as Control shares it
     for (const bool noisy : {true, false}) {
         Control control(settings, {1520, 1, 1}, 2, {}, 0);
         control.plan(some_histogram(), 0);
@@ -193,9 +193,7 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
         Audit audit;
         for (uint32_t i = 0; i < 20000; i += 8) {  // witnesses, which are shaded
             const double a = doubt * normal(random), b = doubt * normal(random);
-            audit.at.push_back(i);
-            audit.mean.push_back(float(2 + factor * wrong + 0.5 * (a + b)));
-            audit.spread.push_back(float(0.5 * (a - b)));
+            audit.pixels.push_back({i, float(2 + factor * wrong + 0.5 * (a + b)), float(0.5 * (a - b)), false});
         }
         const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
         // 2,500 squares of deviations of 0.2: known to a few percent; and none is within three standard errors of 0.
@@ -213,11 +211,7 @@ void an_audit_sees_what_neighbours_share(void**) {
     const double shared = 0.2, scale = 2.22;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
     Audit audit;
-    for (uint32_t i = 0; i < 20000; i += 8) {
-        audit.at.push_back(i);
-        audit.mean.push_back(float(pixels.radiance[4 * i] + shared));
-        audit.spread.push_back(0);
-    }
+    for (uint32_t i = 0; i < 20000; i += 8) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, false});
     const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-6);
     check_close("error", estimate.error(), shared / scale, 0.02 * shared);
@@ -227,13 +221,14 @@ void an_audit_sees_what_neighbours_share(void**) {
 void an_audit_of_the_same_sampler_knows_its_limits(void**) {
     Audit audit;
     audit.samples = 400;
-    audit.biased = true;
-    assert_true(audit.tells_of(100) && audit.tells_of(200) && !audit.tells_of(300) && !audit.tells_of(0));
+    const Audit::Pixel biased = {0, 1, 7, true}, unbiased = {0, 1, 0.0625f, false};
+    assert_true(audit.tells_of(biased, 100) && audit.tells_of(biased, 200) && !audit.tells_of(biased, 300) && !audit.tells_of(biased, 0));
+    assert_true(audit.tells_of(unbiased, 1000));
     // 0.3 of the audit's own error, which falls as samples to the power -1.2.
-    check_close("of a quarter of its samples", audit.square(0.1, 7, 100) / 0.01, 1 / (1 + 0.3 * std::pow(0.25, 1.2)), 1e-12);
-    audit.biased = false;
-    check_close("without bias", audit.square(0.1, 0.05, 100), 0.01 - 0.0025, 1e-12);
-    assert_true(audit.tells_of(1000));
+    const double shown = std::pow(0.25, 1.2);
+    check_close("of a quarter of its samples", audit.square(biased, 1.25, 0.5, 100) / 0.25, 1 / (1 + 0.3 * shown), 1e-12);
+    check_close("without bias", audit.square(unbiased, 1.25, 0.5, 100), 0.25 - 0.015625, 1e-12);
+    check_close("of another", audit.square_of_other(biased, 1.25, 0.5, 0.01, 100), 0.25 - 0.01 * shown, 1e-12);
 }
 
 // Pixels whose spreads tell of twice the error that is there: an audit knows better.
@@ -330,6 +325,20 @@ void lattice_points_are_drawn_anew_first(void**) {
 
 // ---- First rounds -----------------------------------------------------------------------------------
 
+// 1000 pixels in a second, at 1000 samples a millisecond: some 900 of each, or 2.2 times as many of so few that each has them.
+void pixels_are_interpolated_in_time_where_it_pays(void**) {
+    const Settings settings = asking("time_budget", 1000);
+    Pace pace;
+    pace.samples_per_millisecond = 1000;
+    for (const uint64_t pixels : {300, 800}) {
+        Control control(settings, {1000, 1, 1}, 2, pace, 0);
+        Histogram histogram(budget_bins);
+        histogram[share_one] = pixels;
+        assert_true(control.reconsider(histogram, 0) == (pixels > 500));
+        assert_true(control.interpolates() == (pixels < 500));
+    }
+}
+
 Forecast probed(double error) {
     Forecast forecast{1000, 1, 1};
     forecast.probed_error = error;
@@ -337,12 +346,12 @@ Forecast probed(double error) {
     return forecast;
 }
 
-// By a probe of a twentieth more noise than is allowed, at 64 samples: with interpolation's share of the error, and what a first round
-// may miss, all take 2.2 times the samples.
+// By a probe of as much noise as is allowed, at 64 samples: with interpolation's share of the error, and what a first round may miss, all
+// take 2.2 times the samples, and 30 more of each pixel; so shading all pays from (64 + 30) / (2.2 * 64 + 30) = 0.55 on.
 void pixels_are_interpolated_where_it_pays(void**) {
     const Settings settings = asking("target_error", 0.02);
     for (const uint64_t pixels : {300, 800}) {
-        Control control(settings, probed(1.05 * std::pow(0.83 * 0.02, 2)), 2, {}, 0);
+        Control control(settings, probed(std::pow(0.8 * 0.02, 2)), 2, {}, 0);
         Histogram histogram(budget_bins);
         histogram[share_one] = pixels;
         assert_true(control.interpolates());
@@ -354,7 +363,7 @@ void pixels_are_interpolated_where_it_pays(void**) {
 // Pixels that are all alike get what takes the probe's error to what is allowed, less a margin; whatever their share says of it.
 void a_probe_plans_the_first_round(void**) {
     const Settings settings = asking("target_error", 0.02);
-    const double planned = 0.55 * 0.7 * std::pow(0.83 * 0.02, 2);
+    const double planned = 0.55 * 0.7 * std::pow(0.8 * 0.02, 2);
     for (const uint32_t bin : {3u, share_one, budget_bins - 1}) {
         Control control(settings, probed(1e-3), 2, {}, 0);
         Histogram histogram(budget_bins);
@@ -397,7 +406,7 @@ void an_audit_takes_what_it_may(void**) {
     assert_int_equal(planned.probe, 91);  // (0.3 / 0.02)^(2 / 1.2)
     assert_int_equal(planned.samples, 364);
     settings.set_choice("sampler", "filtered");
-    assert_int_equal(Audit::effort(settings, 30000, 5000).samples, 1250);  // half the inverse square of the error
+    assert_int_equal(Audit::effort(settings, 30000, 5000).samples, 1125);  // 5 / (0.02 / 0.3)^2
     settings.set_number("time_budget", 50);
     const Audit::Effort hurried = Audit::effort(settings, 30000, 5000);
     check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + Pace::pixel_samples), 1.2 * 0.06 * 50 * 5000);
@@ -456,6 +465,7 @@ int main() {
         cmocka_unit_test(further_rounds_within_a_cost_spend_it),
         cmocka_unit_test(lattice_points_are_drawn_anew_first),
         cmocka_unit_test(pixels_are_interpolated_where_it_pays),
+        cmocka_unit_test(pixels_are_interpolated_in_time_where_it_pays),
         cmocka_unit_test(a_probe_plans_the_first_round),
         cmocka_unit_test(who_is_drawn_among_few_is_among_more),
         cmocka_unit_test(an_audit_takes_what_it_may),

@@ -1,0 +1,134 @@
+// A frame's audit: before it is drawn, some of its pixels are shaded with about as many samples as it will have, and with more.
+#include <algorithm>
+#include <cmath>
+
+#include "frame/job.h"
+
+namespace lightband {
+namespace {
+
+// An audit draws its own directions of the map, the same for every frame, so that they are drawn once.
+constexpr uint32_t audit_seed = 0x61756469;
+// So many times what a first round plans on average is drawn at some pixels, or by the next.
+constexpr double audit_reserve = 1.4;
+
+}  // namespace
+
+// Pixels drawn by chance.
+std::vector<uint32_t> Frame::draw(const Job& job, double part) const {
+    std::vector<uint32_t> drawn;
+    for (uint32_t y = 0; y < height_; ++y)
+        for (uint32_t x = 0; x < width_; ++x)
+            if (job.material[size_t(y) * width_ + x] != 0 && is_drawn(x, y, settings.seed(), part)) drawn.push_back(y * width_ + x);
+    return drawn;
+}
+
+// Pixels with the same number of samples each; into targets that the rounds will write anew.
+std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<uint32_t>& drawn, const Settings& own, uint32_t samples,
+                                             uint32_t seed) const {
+    const Result& next = *job.result;
+    next.shading.clear(device_->gl());
+    next.shading.decide_all(device_->gl());
+    std::vector<std::vector<uint32_t>> of_slot(job.slots.materials.size());  // y << 16 | x
+    for (const uint32_t at : drawn) of_slot[next.slot_of[job.material[at] - 1u]].push_back(at / width_ << 16 | at % width_);
+    const passes::ShadingList list = passes::even_list(*device_, of_slot, samples);
+    passes::shade(*device_, job.scene, job.slots, own, {seed, seed}, list, next.gbuffer, next.shading,
+                  [&](uint64_t) { job.report(0); });
+    std::vector<float> radiance(pixels() * 4), spread(pixels());
+    next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
+    next.shading.spread.read(0, GL_RED, GL_FLOAT, spread.size() * sizeof(float), spread.data());
+    std::vector<Audit::Pixel> seen;
+    for (const uint32_t at : drawn) {
+        const Vec3 rgb(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]);
+        seen.push_back({at, float(luminance(rgb)), spread[at], own.sampler() == Sampler::cut});
+    }
+    return seen;
+}
+
+void Frame::audit(Job* job, Forecast* forecast) const {
+    Result& next = *job->result;
+    const Audit::Effort effort = Audit::effort(settings, forecast->covered, pace_.samples_per_millisecond);
+    if (effort.part == 0) return;
+    job->material.resize(pixels());
+    next.gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, job->material.size(), job->material.data());
+    const std::vector<uint32_t> drawn = draw(*job, effort.part);
+    if (effort.samples > 0) {
+        job->audited = effort.part;
+        look_closely(job, drawn, effort.samples);
+    }
+    if (effort.probe == 0) return;
+    const std::vector<Audit::Pixel> probe = shade_alike(*job, drawn, settings, effort.probe, settings.seed());
+    next.plan.finished("probe", text(drawn.size(), " pixels, to know how much they vary"), 0, drawn.size() * effort.probe, "samples");
+    if (settings.sampler() == Sampler::cut) doubt_audit(job, probe, effort.probe, forecast->mean_radiance);
+    forecast->probe_samples = effort.probe;
+    forecast->probed_error = probed_error(*job, probe, *forecast);
+}
+
+// The mean squared error that a probe's pixels have.
+double Frame::probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const {
+    std::vector<float> prediction(pixels() * 2);
+    job.result->prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
+    AuditSum sum;
+    for (size_t k = 0; k < probe.size(); ++k) {
+        const double scale = scale_of(probe[k].mean, prediction[2 * probe[k].at + 1], forecast.mean_radiance);
+        if (!(scale > 0)) continue;
+        const double told = std::pow(probe[k].spread / scale, 2);
+        if (job.audited > 0) {
+            const Audit::Pixel& seen = job.audit.pixels[k];
+            const double known = seen.mean + dark_part * forecast.mean_radiance;
+            sum.add(job.audit.square(seen, probe[k].mean, known, forecast.probe_samples), told);
+        } else {
+            sum.add(told, told);
+        }
+    }
+    return sum.error();
+}
+
+void Frame::look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const {
+    Settings closer = settings;
+    if (settings.sampler() == Sampler::filtered) closer.set_choice("sampler", "combined");
+    std::vector<Audit::Pixel> seen = shade_alike(*job, drawn, closer, samples, audit_seed);
+    // What was seen without bias stays.
+    for (size_t k = 0; k < job->audit.pixels.size(); ++k)
+        if (!job->audit.pixels[k].biased) seen[k] = job->audit.pixels[k];
+    job->audit.pixels = std::move(seen);
+    job->audit.samples = samples;
+    job->result->plan.finished("audit", text(drawn.size(), " pixels more closely, to know how far the others err"), 0,
+                               drawn.size() * samples, "samples");
+}
+
+// Looks again, without bias, where a probe and the audit disagree most.
+void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32_t probe_samples, double mean_radiance) const {
+    std::vector<Audit::Pixel>& audited = job->audit.pixels;
+    std::vector<double> disagreement;
+    for (size_t k = 0; k < audited.size(); ++k) {
+        const double known = audited[k].mean + dark_part * mean_radiance;
+        disagreement.push_back(known > 0 ? std::abs(probe[k].mean - audited[k].mean) / known : 0);
+    }
+    std::vector<size_t> order(audited.size());
+    for (size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return disagreement[a] > disagreement[b]; });
+    order.resize(size_t(std::ceil(Audit::doubted_part * double(order.size()))));
+    std::sort(order.begin(), order.end());
+    std::vector<uint32_t> doubted;
+    for (const size_t k : order) doubted.push_back(audited[k].at);
+    Settings unbiased = settings;
+    unbiased.set_choice("sampler", "combined");
+    const uint32_t samples = Audit::unbiased_samples(probe_samples);
+    const std::vector<Audit::Pixel> seen = shade_alike(*job, doubted, unbiased, samples, audit_seed);
+    for (size_t k = 0; k < order.size(); ++k) audited[order[k]] = seen[k];
+    job->result->plan.finished("doubt", text(doubted.size(), " audited pixels without bias"), 0, doubted.size() * samples, "samples");
+}
+
+// Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost.
+bool Frame::audit_again(Job* job) const {
+    const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
+    if (settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0 ||
+        job->audit.knows_better(audit_reserve * planned))
+        return false;
+    look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
+    job->result->shading.clear(device_->gl());
+    return true;
+}
+
+}  // namespace lightband
