@@ -302,7 +302,7 @@ typedef struct lb_frame_stats {
     uint64_t covered_pixels;     /* pixels that see a mesh */
     uint64_t shaded_pixels;      /* those whose integral was computed; the others were interpolated */
     uint64_t samples;            /* light samples that the picture is made of, counted by the shaders themselves, all frames;
-                                    those of rounds that were drawn anew, of probes and of audits are not among them */
+                                    those that were drawn anew, of probes and of audits are not among them */
     uint64_t saturated_pixels;   /* covered pixels whose predicted bandwidth reached 0.5 cycles per pixel */
     uint64_t bent_normals;       /* covered pixels whose shading normal faced away and was turned to the eye */
     uint64_t device_bytes;       /* device memory held by the scene and this frame */
@@ -316,9 +316,11 @@ typedef struct lb_frame_stats {
     double interpolation_error;    /* part of it that finer levels would lessen */
     uint64_t capped_pixels;        /* pixels whose samples reached the setting "max_samples"; they may have deserved more */
     uint32_t rounds;               /* of shading: 1 where neither an error nor a time was asked for */
-    uint32_t audited_pixels;       /* pixels that were also shaded without bias, to know it; 0: the sampler has none */
-    double bias_error;             /* part of error that is not by chance: what a biased sampler (setting "sampler") gets wrong
-                                      in the same way at every seed; more samples lessen it */
+    uint32_t audited_pixels;       /* pixels that were also shaded with more samples, to know how far the others err; 0 where
+                                      the setting "sampler" has no bias */
+    double bias_error;             /* part of error that an audit found beyond the other two: what a biased sampler gets wrong
+                                      in the same way at every seed, and what replicates and witnesses do not tell; more
+                                      samples lessen it */
 } lb_frame_stats;
 
 #define LB_FRAME_STATS_INIT \

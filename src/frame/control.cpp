@@ -59,13 +59,15 @@ double total(const Histogram& histogram) { return double(std::accumulate(histogr
 
 }  // namespace
 
-void Pace::learn(const RoundCost& cost, bool first_round) {
+void Pace::learn(const RoundCost& cost, bool first_of_two) {
     round_milliseconds = cost.other_milliseconds;
     if (!(cost.shading_milliseconds > 0) || cost.samples == 0) return;
     const double seen = (double(cost.samples) + pixel_samples * double(cost.pixels)) / cost.shading_milliseconds;
-    // What later rounds do is known from the frames before, up to how fast the device is now.
-    samples_per_millisecond = first_round && of_first_round > 0 ? samples_per_millisecond * seen / of_first_round : seen;
-    if (first_round) of_first_round = seen;
+    if (!first_of_two || !known) samples_per_millisecond = seen;
+    // What later rounds do is known from the frames before, up to how fast the device is now; of which a short round says half.
+    else if (of_first_round > 0) samples_per_millisecond *= std::sqrt(seen / of_first_round);
+    if (first_of_two) of_first_round = seen;
+    known = true;
 }
 
 Control::Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed)
@@ -103,45 +105,40 @@ double Control::goal() const { return std::pow(aim * settings_.target_error(), 2
 double Control::share_of_interpolation() const { return interpolates_ ? interpolation_share : 0; }
 double Control::noise_allowed() const { return (1 - share_of_interpolation()) * goal(); }
 
-double Control::first_noise() const { return interpolates_ ? held_by_first * noise_allowed() : noise_allowed(); }
+double Control::first_noise(bool interpolating) const { return interpolating ? held_by_first * (1 - interpolation_share) * goal() : goal(); }
 
 // What shares and samples foretell of the noise is made to agree with the probe where every pixel has as many samples as that; from
 // there the goal is reached by more.
 double Control::predicted_goal(const Histogram& histogram) const {
     const double foretold = predicted_noise(histogram, Budget(budget_bins, forecast_.probe_samples), settings_.allocation());
     if (!(forecast_.probed_error > 0) || !(foretold > 0)) return noise_allowed() * forecast_.covered;
-    return foretold * reached_by_more(first_noise() / forecast_.probed_error);
+    return foretold * reached_by_more(first_noise(interpolates_) / forecast_.probed_error);
 }
 
-// Samples of so many pixels that leave what is allowed, as a probe foretells.
-double Control::first_cost(double pixels) const {
-    const double samples = forecast_.probe_samples * std::pow(forecast_.probed_error / first_noise(), 1 / stratified_gain);
-    return pixels * (Pace::pixel_samples + std::max(samples, double(least_samples)));
+// Samples of so many pixels that a first round takes, as a probe foretells, those included that a pixel costs before its first one.
+double Control::first_cost(double pixels, bool interpolating) const {
+    const double noise = forecast_.probed_error / first_noise(interpolating);
+    return pixels * (Pace::pixel_samples + std::max(forecast_.probe_samples * std::pow(noise, 1 / stratified_gain), double(least_samples)));
 }
 
 bool Control::reconsider(const Histogram& histogram, double elapsed) {
     if (round_ > 0 || settings_.bandwidth_scale() > 0) return false;
     const double shaded = total(histogram);
+    const bool interpolated = interpolates_;
     if (settings_.target_error() > 0) {
-        interpolates_ = interpolates_ && pays(shaded);
-        return !interpolates_;
+        interpolates_ = interpolated && pays(shaded);
+    } else if (settings_.time_budget() > 0) {
+        // Samples that there is time for, those included that a pixel costs before its first one.
+        const double light = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0) * pace_.samples_per_millisecond;
+        if (coarsen(shaded, light)) return true;
+        interpolates_ = interpolated && pays_in_time(shaded, light);
     }
-    if (settings_.time_budget() <= 0) return false;
-    // Samples that there is time for, those included that a pixel costs before its first one.
-    const double light = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0) * pace_.samples_per_millisecond;
-    if (coarsen(shaded, light)) return true;
-    interpolates_ = interpolates_ && pays_in_time(shaded, light);
-    return !interpolates_;
+    return interpolated != interpolates_;
 }
 
 // Interpolation takes a share of the error, and so more samples of each pixel: it pays where it spares more pixels than that.
-bool Control::pays(double shaded) {
-    if (!(forecast_.probed_error > 0)) return true;
-    const double interpolating = first_cost(shaded);
-    interpolates_ = false;
-    const double shading = first_cost(forecast_.covered);
-    interpolates_ = true;
-    return interpolating < shading;
+bool Control::pays(double shaded) const {
+    return !(forecast_.probed_error > 0) || first_cost(shaded, true) < first_cost(forecast_.covered, false);
 }
 
 bool Control::pays_in_time(double shaded, double light) const {
@@ -185,15 +182,15 @@ const Budget& Control::plan_further(const std::vector<DrawnGroup>& drawn, const 
 
 // Milliseconds that this round may shade. The first of two measures; where a second would spend more on its lists than on light, the
 // first has it all.
-double Control::time_to_shade(double elapsed) const {
+double Control::time_to_shade(double elapsed) {
     const double left = std::max(settings_.time_budget() - elapsed - after_shading * pace_.round_milliseconds, 0.0);
-    const bool two = round_ == 1 && left > 4 * pace_.round_milliseconds;
-    return two ? first_part * left : left;
+    first_of_two_ = round_ == 1 && left > 4 * pace_.round_milliseconds;
+    return first_of_two_ ? first_part * left : left;
 }
 
 bool Control::out_of_time(const RoundCost& cost) {
     // A round of few new pixels says little of others.
-    if (double(cost.pixels) >= telling_part * shaded_) pace_.learn(cost, round_ == 1);
+    if (double(cost.pixels) >= telling_part * shaded_) pace_.learn(cost, first_of_two_);
     if (settings_.time_budget() <= 0) return false;
     const double left = settings_.time_budget() - cost.elapsed_milliseconds - pace_.round_milliseconds;
     return left < std::max(worthwhile_part * settings_.time_budget(), pace_.round_milliseconds);

@@ -31,10 +31,11 @@ struct Pace {
     // A pixel costs as much as so many samples before its first one: the odds of the map's clusters, or the trunk of a cut.
     static constexpr double pixel_samples = 30;
     double samples_per_millisecond = 5000;  // those included; a guess, until a frame has measured it
-    double of_first_round = 0;              // few samples cost otherwise than many; 0: none was measured
+    bool known = false;                     // whether one has
+    double of_first_round = 0;              // of the first of two, whose few samples cost otherwise than many; 0: none was measured
     double round_milliseconds = 0;          // of a round beside its shading
 
-    void learn(const RoundCost& cost, bool first_round);
+    void learn(const RoundCost& cost, bool first_of_two);
 };
 
 class Control {
@@ -72,13 +73,13 @@ private:
     double goal() const;  // mean squares over the covered pixels: of the frame, of its noise, of what a first round plans for
     double share_of_interpolation() const;
     double noise_allowed() const;
-    double first_noise() const;
+    double first_noise(bool interpolating) const;
     double predicted_goal(const Histogram& histogram) const;
-    double first_cost(double pixels) const;
-    bool pays(double shaded);
+    double first_cost(double pixels, bool interpolating) const;
+    bool pays(double shaded) const;
     bool pays_in_time(double shaded, double light) const;
     bool coarsen(double shaded, double light);
-    double time_to_shade(double elapsed) const;
+    double time_to_shade(double elapsed);
     double first_scale(double elapsed);
 
     const Settings& settings_;
@@ -92,6 +93,7 @@ private:
     double expected_noise_ = 0;  // of a frame that asks for no error
     Pace pace_;
     uint32_t round_ = 0;
+    bool first_of_two_ = false;  // rounds of a frame with a time budget
 };
 
 }  // namespace lightband

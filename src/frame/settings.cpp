@@ -49,7 +49,8 @@ const lb_setting_info table[place_count] = {
     real("bandwidth_scale", 0, Settings::largest_bandwidth_scale, 0,
          "Factor on the predicted image bandwidth before a level is chosen; more: more pixels are shaded. 0: chosen so that "
          "interpolation errs about as much as the predicted noise; it grows with samples."),
-    integer("coarsest_level", 0, 8, 5, "Coarsest spacing of shaded pixels is 2^coarsest_level; 0 shades every pixel."),
+    integer("coarsest_level", 0, 8, 5, "Coarsest spacing of shaded pixels is 2^coarsest_level; 0 shades every pixel, as a frame with an error or a time does where "
+            "interpolation would not pay."),
     integer("pilots", 4, 1024, 16, "Directions per pixel in the prediction: n_b of eq. 5 and 9."),
     choice_of("transport", "correlated|box", "correlated",
               "Form of the reflection operator. box: as printed in figure 4. correlated: spatial and angular bandwidth of distant "

@@ -65,9 +65,9 @@ class FrameStats:
     rounds: int
     """Rounds of shading: 1 where neither an error nor a time was asked for."""
     audited_pixels: int
-    """Pixels that were also shaded without bias, to know it; 0: the sampler has none."""
+    """Pixels that were also shaded with more samples, to know how far the others err; 0: the sampler has no bias."""
     bias_error: float
-    """The part of error that a biased sampler gets wrong in the same way at every seed; more samples lessen it."""
+    """The part of error that an audit found beyond the other two: a biased sampler's, and what replicates and witnesses do not tell."""
 
 
 @dataclass(frozen=True)
