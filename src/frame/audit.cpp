@@ -17,8 +17,8 @@ constexpr double most_covered = 0.5;
 constexpr double fewest = 64, most = 1 << 16;
 
 // A biased sampler's cut and footprints shrink with its samples, and so does their error. Over the scenes of docs/trade.md a pixel of N
-// samples differs from one of 4 N by 1.06 of its own squared error (0.88 to 1.16 by scene), from one of 8 N by 1.02: of the other's
-// error, which falls as N^-g, so much shows.
+// samples differs from one of 4 N by 1.04 of its own squared error (0.87 to 1.16 by scene), from one of 8 N by 1.01
+// (docs/decisions/0010): of the other's error, which falls as N^-g, so much shows at most.
 constexpr double shown_of_audit = 0.3;
 // Below so many times a pixel's own samples, an audit says more of itself.
 constexpr double least_gain = 1.8;

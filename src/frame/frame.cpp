@@ -206,7 +206,10 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
         job->part = (1 - job->done) * (one ? 1.0 / settings.accumulate() : 0.5);
         const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
         list(job, &control, forecast);
-        if (job->drawn.pixels == 0 && next.stats.rounds > 1) break;
+        if (job->drawn.pixels == 0 && next.stats.rounds > 1) {
+            --next.stats.rounds;  // nothing is left that would be worth it
+            break;
+        }
         if (job->drawn.samples >= worth_new_points) points_seed = settings.seed() + next.stats.rounds - 1;
         shade(job, {settings.seed() + next.stats.rounds - 1, points_seed});
         measure(job);
