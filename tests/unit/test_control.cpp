@@ -217,6 +217,24 @@ void an_audit_sees_what_neighbours_share(void**) {
     check_close("error", estimate.error(), shared / scale, 0.02 * shared);
 }
 
+// Pixels that are right, but would not be if they were interpolated, while their replicates call that noise: it is the interpolated
+// value that the audit holds against the truth.
+void an_audit_judges_what_would_be_interpolated(void**) {
+    Random random(22);
+    const double wrong = 0.2, spread = 0.02, scale = 2.02;
+    RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
+    Audit audit;
+    for (uint32_t i = 0; i < 20000; i += 8) {
+        pixels.spread[4 * i] = float(spread);
+        pixels.spread[4 * i + 1] = pixels.spread[4 * i + 2] = float(wrong);
+        audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : -spread)), 0, false});
+    }
+    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
+    check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-5);
+    // The audit's mean is off by the spread either way: its square is a hundredth of the error's, half a hundredth of its root.
+    check_close("error", estimate.error(), wrong / scale, 0.02 * wrong / scale);
+}
+
 // By the frame's own sampler: what it shows of itself is taken off, and it is silent where it knows no better.
 void an_audit_of_the_same_sampler_knows_its_limits(void**) {
     Audit audit;
@@ -460,6 +478,7 @@ int main() {
         cmocka_unit_test(an_audit_sees_what_the_spreads_do_not),
         cmocka_unit_test(a_probe_believes_its_audit),
         cmocka_unit_test(an_audit_sees_what_neighbours_share),
+        cmocka_unit_test(an_audit_judges_what_would_be_interpolated),
         cmocka_unit_test(an_audit_of_the_same_sampler_knows_its_limits),
         cmocka_unit_test(what_varies_most_is_drawn_anew),
         cmocka_unit_test(further_rounds_within_a_cost_spend_it),
