@@ -61,8 +61,8 @@ public:
     // The mean squared error of the pixels themselves.
     double error() const;
 
-    // A pixel is believed up to an error of as much as it shows: products of few samples' noise go far beyond in both directions,
-    // and one of them would drown the others.
+    // A pixel is believed up to an error of as much as it shows: squares of few samples' noise go far beyond, and one of them
+    // would drown the others.
     static constexpr double largest_square = 1;
 
     // Nor may an audit say that there is less than this part of what the spreads tell.

@@ -1,6 +1,7 @@
 // A frame's audit: before it is drawn, some of its pixels are shaded with about as many samples as it will have, and with more.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "frame/job.h"
 
@@ -60,6 +61,7 @@ void Frame::audit(Job* job, Forecast* forecast) const {
     const std::vector<Audit::Pixel> probe = shade_alike(*job, drawn, settings, effort.probe, settings.seed());
     next.plan.finished("probe", text(drawn.size(), " pixels, to know how much they vary"), 0, drawn.size() * effort.probe, "samples");
     if (settings.sampler() == Sampler::cut) doubt_audit(job, probe, effort.probe, forecast->mean_radiance);
+    if (settings.target_error() <= 0) return;  // nothing is planned from it
     forecast->probe_samples = effort.probe;
     forecast->probed_error = probed_error(*job, probe, *forecast);
 }
@@ -106,7 +108,7 @@ void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32
         disagreement.push_back(known > 0 ? std::abs(probe[k].mean - audited[k].mean) / known : 0);
     }
     std::vector<size_t> order(audited.size());
-    for (size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::iota(order.begin(), order.end(), size_t(0));
     std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return disagreement[a] > disagreement[b]; });
     order.resize(size_t(std::ceil(Audit::doubted_part * double(order.size()))));
     std::sort(order.begin(), order.end());

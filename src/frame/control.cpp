@@ -105,7 +105,9 @@ double Control::goal() const { return std::pow(aim * settings_.target_error(), 2
 double Control::share_of_interpolation() const { return interpolates_ ? interpolation_share : 0; }
 double Control::noise_allowed() const { return (1 - share_of_interpolation()) * goal(); }
 
-double Control::first_noise(bool interpolating) const { return interpolating ? held_by_first * (1 - interpolation_share) * goal() : goal(); }
+double Control::first_noise(bool interpolating) const {
+    return interpolating ? held_by_first * (1 - interpolation_share) * goal() : goal();
+}
 
 // What shares and samples foretell of the noise is made to agree with the probe where every pixel has as many samples as that; from
 // there the goal is reached by more.
