@@ -30,8 +30,12 @@ constexpr double expected_error = 0.3, least_probe = 16, most_probe = 512;
 // Part of a frame's time.
 constexpr double part_of_time = 0.06;
 
-// What pixels err by over what their spreads tell, before any audit: as much, give or take as much again.
-constexpr double expected_doubt = 1;
+// What pixels err by over what their variances tell, before any audit: as much, give or take half of that (over the scenes of
+// docs/trade.md 0.5 to 2.3 times, docs/decisions/0010).
+constexpr double expected_doubt = 0.5;
+
+// Standard deviations of an unbiased look that chance may reach: at a few dozen pixels, one in a thousand each.
+constexpr double refuting_deviations = 3;
 
 double believed_square(double value) { return std::min(value * value, AuditSum::largest_square); }
 
@@ -57,6 +61,10 @@ double Audit::square(const Pixel& pixel, double shown, double scale, double own_
 double Audit::square_of_other(const Pixel& pixel, double shown, double scale, double drawn, double own_samples) const {
     const double square = believed_square((shown - pixel.mean) / scale);
     return square - (pixel.biased ? drawn * std::pow(own_samples / samples, stratified_gain) : believed_square(pixel.spread / scale));
+}
+
+bool Audit::refutes(const Pixel& unbiased, const Pixel& cut) {
+    return unbiased.mean - refuting_deviations * unbiased.deviation > cut.mean;
 }
 
 uint32_t Audit::unbiased_samples(double probe) {
@@ -98,8 +106,9 @@ AuditSum::Bias AuditSum::beyond(double noise) const {
     const double ratio = std::accumulate(squares_.begin(), squares_.end(), 0.0) / told;
     double doubt = 0;  // the ratio's variance
     for (size_t i = 0; i < told_.size(); ++i) doubt += std::pow((squares_[i] - ratio * told_[i]) / told, 2);
-    // What was seen may also be what was to be expected, if only one had known.
-    const double expected = expected_doubt * expected_doubt + (ratio - 1) * (ratio - 1), weight = expected / (expected + doubt);
+    // What was seen beyond its own doubt may also be what was to be expected, if only one had known: a lamp that was missed.
+    const double surprise = std::max(std::abs(ratio - 1) - std::sqrt(doubt), 0.0);
+    const double expected = expected_doubt * expected_doubt + surprise * surprise, weight = expected / (expected + doubt);
     return {noise * std::max(weight * (ratio - 1), least_true - 1), noise * std::sqrt(weight * doubt)};
 }
 

@@ -2,6 +2,7 @@
 // held against them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -13,10 +14,10 @@ namespace lightband {
 bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part);
 
 struct Audit {
-    // Luminance, and half the difference of its two replicates.
+    // Luminance; half the difference of its two replicates; and its standard deviation, as if its samples were independent.
     struct Pixel {
         uint32_t at;  // y * width + x
-        float mean, spread;
+        float mean, spread, deviation;
         bool biased;  // whether by the frame's own sampler, which errs as it does, but less
     };
     std::vector<Pixel> pixels;
@@ -44,6 +45,9 @@ struct Audit {
     // misses for long shows there first. So many samples err less than a probe's.
     static constexpr double doubted_part = 0.1;
     static uint32_t unbiased_samples(double probe);
+    // Whether what a cut saw of a pixel is refuted by what was seen there without bias. A cut does not invent light: that few samples
+    // of another kind have not met a lamp proves nothing.
+    static bool refutes(const Pixel& unbiased, const Pixel& cut);
 };
 
 // What audited pixels err by over what their spreads tell.
@@ -51,6 +55,9 @@ class AuditSum {
 public:
     // Squared and relative to what the pixel shows: what it errs by, and what its spread tells.
     void add(double square, double told);
+    // Of a pixel that now knows better than its audit. Without it, those that disagreed most, which are audited best, would be left
+    // to speak for all.
+    void add_believed(double told) { add(std::min(told, largest_square), told); }
 
     // Of a mean squared error what is beyond `noise`, which the spreads tell of, weighed by its doubt; negative where they tell of more
     // than there is.

@@ -40,8 +40,9 @@ std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<u
     next.shading.spread.read(0, GL_RED, GL_FLOAT, spread.size() * sizeof(float), spread.data());
     std::vector<Audit::Pixel> seen;
     for (const uint32_t at : drawn) {
-        const Vec3 rgb(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]);
-        seen.push_back({at, float(luminance(rgb)), spread[at], own.sampler() == Sampler::cut});
+        const double mean = luminance(Vec3(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]));
+        const double variance = std::max(radiance[4 * at + 3] - mean * mean, 0.0) / (samples - 1);
+        seen.push_back({at, float(mean), spread[at], float(std::sqrt(variance)), own.sampler() == Sampler::cut});
     }
     return seen;
 }
@@ -77,10 +78,9 @@ double Frame::probed_error(const Job& job, const std::vector<Audit::Pixel>& prob
         const double told = std::pow(probe[k].spread / scale, 2);
         if (job.audited > 0) {
             const Audit::Pixel& seen = job.audit.pixels[k];
-            const double known = seen.mean + dark_part * forecast.mean_radiance;
-            sum.add(job.audit.square(seen, probe[k].mean, known, forecast.probe_samples), told);
+            sum.add(job.audit.square(seen, probe[k].mean, scale_of(seen, forecast.mean_radiance), forecast.probe_samples), told);
         } else {
-            sum.add(told, told);
+            sum.add_believed(told);
         }
     }
     return sum.error();
@@ -104,8 +104,8 @@ void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32
     std::vector<Audit::Pixel>& audited = job->audit.pixels;
     std::vector<double> disagreement;
     for (size_t k = 0; k < audited.size(); ++k) {
-        const double known = audited[k].mean + dark_part * mean_radiance;
-        disagreement.push_back(known > 0 ? std::abs(probe[k].mean - audited[k].mean) / known : 0);
+        const double scale = scale_of(audited[k], mean_radiance);
+        disagreement.push_back(scale > 0 ? std::abs(probe[k].mean - audited[k].mean) / scale : 0);
     }
     std::vector<size_t> order(audited.size());
     std::iota(order.begin(), order.end(), size_t(0));
@@ -118,7 +118,8 @@ void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32
     unbiased.set_choice("sampler", "combined");
     const uint32_t samples = Audit::unbiased_samples(probe_samples);
     const std::vector<Audit::Pixel> seen = shade_alike(*job, doubted, unbiased, samples, audit_seed);
-    for (size_t k = 0; k < order.size(); ++k) audited[order[k]] = seen[k];
+    for (size_t k = 0; k < order.size(); ++k)
+        if (Audit::refutes(seen[k], audited[order[k]])) audited[order[k]] = seen[k];
     job->result->plan.finished("doubt", text(doubted.size(), " audited pixels without bias"), 0, doubted.size() * samples, "samples");
 }
 

@@ -43,8 +43,11 @@ constexpr double least_expected = 0.5, most_expected = 1.5, sure_deviations = 3;
 struct Audited {
     size_t at;
     double scale;
+    bool overtaken;       // by its own samples: its spreads are believed
     double drawn;         // what was drawn there
     double interpolated;  // what interpolation would show, at a witness
+
+    void add_to(AuditSum* sum, double square, double told) const { overtaken ? sum->add_believed(told) : sum->add(square, told); }
 };
 
 // frames: over which the picture is a mean.
@@ -53,12 +56,11 @@ std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit,
     for (const Audit::Pixel& seen : audit.pixels) {
         const size_t i = seen.at;
         const double scale = scale_of(pixels, i, estimate.mean_luminance), samples = double(pixels.sample_count[i]) * frames;
-        // An audit knows better than pilots what the pixel should show.
-        const double known = seen.mean + dark_part * estimate.mean_luminance;
-        if (!(scale > 0) || !(known > 0) || !audit.tells_of(seen, samples)) continue;
+        const double known = scale_of(seen, estimate.mean_luminance);
+        if (!(scale > 0) || !(known > 0) || samples == 0) continue;
         const double shown = luminance_at(pixels, i), drawn = audit.square(seen, shown, known, samples);
         const bool witness = is_witness(pixels.decision[i]);
-        result.push_back({i, scale, drawn,
+        result.push_back({i, scale, !audit.tells_of(seen, samples), drawn,
                           witness ? audit.square_of_other(seen, shown + pixels.spread[4 * i + 1], known, drawn, samples) : 0});
     }
     return result;
@@ -67,7 +69,7 @@ std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit,
 // Squared noise over what the replicates tell of it. What they do not tell is not noise that two neighbours would differ by.
 double truth_of_spreads(const RoundPixels& pixels, const std::vector<Audited>& audited) {
     AuditSum sum;
-    for (const Audited& pixel : audited) sum.add(pixel.drawn, std::pow(pixels.spread[4 * pixel.at] / pixel.scale, 2));
+    for (const Audited& pixel : audited) pixel.add_to(&sum, pixel.drawn, std::pow(pixels.spread[4 * pixel.at] / pixel.scale, 2));
     return 1 + std::min(sum.beyond(1).mean, 0.0);
 }
 
@@ -84,10 +86,11 @@ void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, do
     for (const Audited& pixel : audited) {
         const double per_scale = estimate->stratification / (pixel.scale * pixel.scale);
         if (!is_witness(pixels.decision[pixel.at])) {
-            sum.add(pixel.drawn, per_scale * variance_of_mean(pixels, pixel.at));
+            pixel.add_to(&sum, pixel.drawn, per_scale * variance_of_mean(pixels, pixel.at));
             continue;
         }
-        sum.add(pixel.interpolated, per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth));
+        pixel.add_to(&sum, pixel.interpolated,
+                     per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth));
     }
     const AuditSum::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
     estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise);
@@ -106,6 +109,8 @@ double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
     const double scale = scale_of(shown, pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
     return std::max(scale, sure + dark_part * mean_luminance);
 }
+
+double scale_of(const Audit::Pixel& seen, double mean_luminance) { return seen.mean + dark_part * mean_luminance; }
 
 double ErrorEstimate::error() const { return std::sqrt(noise + interpolation + bias); }
 

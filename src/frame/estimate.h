@@ -16,6 +16,8 @@ constexpr double dark_part = 0.01;
 double scale_of(double shown, double expected, double mean_luminance);
 struct RoundPixels;
 double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance);
+// An audit knows better than pilots what a pixel should show.
+double scale_of(const Audit::Pixel& seen, double mean_luminance);
 
 // What interpolation costs is held against the bandwidth in square tiles of so many pixels a side.
 constexpr uint32_t tile_side = 16;

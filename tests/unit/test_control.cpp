@@ -193,7 +193,7 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
         Audit audit;
         for (uint32_t i = 0; i < 20000; i += 8) {  // witnesses, which are shaded
             const double a = doubt * normal(random), b = doubt * normal(random);
-            audit.pixels.push_back({i, float(2 + factor * wrong + 0.5 * (a + b)), float(0.5 * (a - b)), false});
+            audit.pixels.push_back({i, float(2 + factor * wrong + 0.5 * (a + b)), float(0.5 * (a - b)), 0, false});
         }
         const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
         // 2,500 squares of deviations of 0.2: known to a few percent; and none is within three standard errors of 0.
@@ -211,7 +211,7 @@ void an_audit_sees_what_neighbours_share(void**) {
     const double shared = 0.2, scale = 2.22;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
     Audit audit;
-    for (uint32_t i = 0; i < 20000; i += 8) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, false});
+    for (uint32_t i = 0; i < 20000; i += 8) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, false});
     const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-6);
     check_close("error", estimate.error(), shared / scale, 0.02 * shared);
@@ -227,7 +227,7 @@ void an_audit_judges_what_would_be_interpolated(void**) {
     for (uint32_t i = 0; i < 20000; i += 8) {
         pixels.spread[4 * i] = float(spread);
         pixels.spread[4 * i + 1] = pixels.spread[4 * i + 2] = float(wrong);
-        audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : -spread)), 0, false});
+        audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : -spread)), 0, 0, false});
     }
     const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-5);
@@ -239,7 +239,7 @@ void an_audit_judges_what_would_be_interpolated(void**) {
 void an_audit_of_the_same_sampler_knows_its_limits(void**) {
     Audit audit;
     audit.samples = 400;
-    const Audit::Pixel biased = {0, 1, 7, true}, unbiased = {0, 1, 0.0625f, false};
+    const Audit::Pixel biased = {0, 1, 7, 7, true}, unbiased = {0, 1, 0.0625f, 0.0625f, false};
     assert_true(audit.tells_of(biased, 100) && audit.tells_of(biased, 200) && !audit.tells_of(biased, 300) && !audit.tells_of(biased, 0));
     assert_true(audit.tells_of(unbiased, 1000));
     // 0.3 of the audit's own error, which falls as samples to the power -1.2.
@@ -260,6 +260,45 @@ void a_probe_believes_its_audit(void**) {
     AuditSum none, dark;
     dark.add(0, 0);
     assert_true(none.error() == 0 && dark.error() == 0);
+}
+
+// One square of many that is far too large is as likely chance: of n alike and one of n times as much the mean is twice what it was, and
+// as much in doubt. Where all are as large, they are believed.
+void a_single_square_is_doubted(void**) {
+    const int n = 400;
+    AuditSum one, all;
+    for (int i = 0; i < n; ++i) {
+        one.add(i == 0 ? 0.001 * (n + 1) : 0.001, 0.001);
+        all.add(0.002 + 0.0005 * (i % 2), 0.001);
+    }
+    // Ratio 2, variance 1: surprise 0, and a quarter of expected doubt in five quarters of doubt.
+    check_close("one", one.error() / 0.001, 1.2, 0.001);
+    check_close("all", all.error() / 0.001, 2.25, 0.001);
+}
+
+// A cut whose pixels miss light is told so by what has met it; not by what has not.
+void a_cut_is_refuted_by_light_alone(void**) {
+    const Audit::Pixel cut = {0, 1, 0.01f, 0.01f, true};
+    const auto seen = [](float mean, float deviation) { return Audit::Pixel{0, mean, 0, deviation, false}; };
+    assert_true(Audit::refutes(seen(1.31f, 0.1f), cut) && !Audit::refutes(seen(1.29f, 0.1f), cut));
+    assert_false(Audit::refutes(seen(0, 0), cut));
+}
+
+// Of a frame's pixels all but a few, which err most, have overtaken their audit: those few do not speak for all.
+void what_has_overtaken_its_audit_is_still_counted(void**) {
+    Random random(26);
+    RoundPixels pixels = synthetic(random, 20000, 0.01, 0);
+    Audit audit;
+    audit.samples = 1;
+    for (uint32_t i = 0; i < 400; ++i) {
+        const bool wrong = i < 4;
+        const uint32_t at = 24 * i + 1;  // shaded
+        audit.pixels.push_back({at, float((wrong ? 1.5 : 1) * pixels.radiance[4 * at]), 0, 0, !wrong});
+    }
+    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
+    // Four squares of a ninth among 400, known to their half: the mean square of the frame, not of the four.
+    const double seen = 4.0 / 9 / 400;
+    assert_true(estimate.bias > 0.2 * seen && estimate.bias <= seen);
 }
 
 // ---- Further rounds ---------------------------------------------------------------------------------
@@ -474,6 +513,9 @@ int main() {
         cmocka_unit_test(rounds_stop_where_the_error_is_reached),
         cmocka_unit_test(noise_asks_for_samples_and_interpolation_for_levels),
         cmocka_unit_test(a_single_witness_is_doubted_while_there_is_noise),
+        cmocka_unit_test(a_single_square_is_doubted),
+        cmocka_unit_test(a_cut_is_refuted_by_light_alone),
+        cmocka_unit_test(what_has_overtaken_its_audit_is_still_counted),
         cmocka_unit_test(tiles_count_their_own_witnesses),
         cmocka_unit_test(an_audit_sees_what_the_spreads_do_not),
         cmocka_unit_test(a_probe_believes_its_audit),
