@@ -14,11 +14,11 @@ import numpy as np
 
 RANDOM = -2.0  # d log time / d log error of independent samples
 STRATIFIED = -1.0  # and of the best stratified ones
-ASKED = ("mesh", "material", "map", "size", "target", "got", "estimated", "noise", "interpolation", "bias", "ms", "prediction ms",
+ASKED = ("mesh", "material", "map", "size", "seed", "target", "got", "estimated", "noise", "interpolation", "bias", "ms", "prediction ms",
          "samples", "shaded", "capped", "rounds", "bytes")
 RUNS = ("first ms", "second ms", "third ms")
 BUDGET = ("mesh", "material", "map", "size", "budget ms", *RUNS, "got", "estimated")
-RIVALS = ("mesh", "material", "map", "size", "target", "got", "ms", "shaded", "oracle shaded", "reference", "fewer pixels",
+RIVALS = ("mesh", "material", "map", "size", "seed", "target", "got", "ms", "shaded", "oracle shaded", "reference", "fewer pixels",
           "better samples", "papers adaptive", "Mitsuba", "best fixed")
 FIXED = ("mesh", "material", "map", "size", "method", "samples", "bandwidth scale", "error", "ms")
 
@@ -95,7 +95,7 @@ def rival_rows(records: list[dict]) -> list[dict]:
                 continue
             reference, shaded = time_of_random(record["reference"], got) / ours, asked["shaded"] / record["covered"]
             rows.append({**names(record), **dict(zip(RIVALS[4:], (
-                asked["target"], got, ours, shaded, oracle, reference, 1 / shaded, reference * shaded,
+                asked["seed"], asked["target"], got, ours, shaded, oracle, reference, 1 / shaded, reference * shaded,
                 time_of_random(record["papers"], got) / ours, time_of_peer(peer_curve(record), got) / ours,
                 time_on_frontier(fixed_curve(record), got) / ours if record["fixed"] else "")))})
     return rows

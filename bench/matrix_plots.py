@@ -68,7 +68,7 @@ def save(figure: Figure, path: Path) -> None:
 
 
 def draw_asked(rows: list[dict], path: Path) -> None:
-    """Error asked against got, and the frames' own estimates against got; a point is a scene at a target."""
+    """Error asked against got, and the frames' own estimates against got; a point is a scene at a target, under one seed."""
     rows = [{**row, "spread": spread} for row, spread in zip(rows, jitter(len(rows), SPREAD)) if np.isfinite(row["got"])]
     materials = sorted({row["material"] for row in rows})
     every = np.concatenate([column(rows, name) for name in ("target", "estimated", "got")])
@@ -159,7 +159,7 @@ def draw_curves(records: list[dict], path: Path) -> None:
                 extrapolated = name.startswith("papers")
                 axes.plot(milliseconds, error, color=RIVAL_COLOURS[name], linewidth=1.1, label=name, zorder=2,
                           linestyle=(0, (2, 1.5)) if extrapolated else "-", marker=None if extrapolated else "o", markersize=3)
-            ours = [(row["ms"], row["got"]) for row in record["asked"]]
+            ours = [(row["ms"], row["got"]) for row in record["asked"] if row["seed"] == record["asked"][0]["seed"]]
             axes.plot(*np.array(ours).T, color=OURS, linewidth=2, marker="o", markersize=4.5, label="ours, error asked", zorder=3)
             axes.set_title(f"{record['mesh']}, {record['material']}, {record['map']}, {record['size']} x {record['size']}")
             log_axis(axes, "x", [3, 10, 30, 100, 300, 1000, 3000, 10000, 30000])
