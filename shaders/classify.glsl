@@ -70,10 +70,10 @@ bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     return abs(between - here) <= tolerance * (here + dark_part * mean_radiance);
 }
 
-// Footprints leave little of a variance, the less the larger it is: of a cut, error was least between 0 and 1/4
+// Footprints leave little of a variance, the less the larger it is: of a cut, error was least where pixels have alike
 // (docs/decisions/0009).
 #if defined(SAMPLER_CUT)
-const float variance_power = 0.25;
+const float variance_power = 0.0;
 #else
 const float variance_power = 0.5;
 #endif

@@ -10,8 +10,6 @@ namespace {
 
 // An audit draws its own directions of the map, the same for every frame, so that they are drawn once.
 constexpr uint32_t audit_seed = 0x61756469;
-// So many times what a first round plans on average is drawn at some pixels, or by the next.
-constexpr double audit_reserve = 1.4;
 
 }  // namespace
 
@@ -127,7 +125,7 @@ void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32
 bool Frame::audit_again(Job* job) const {
     const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
     if (settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0 ||
-        job->audit.knows_better(audit_reserve * planned))
+        job->audit.knows_better(planned))
         return false;
     look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
     job->result->shading.clear(device_->gl());

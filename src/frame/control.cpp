@@ -23,7 +23,7 @@ constexpr double interpolation_share = 0.3, most_interpolation = 0.5;
 // Rounds aim below what was asked, by what the estimate may miss. The last is one that is thought to come this near, or, with all
 // that is in doubt, that near.
 constexpr double aim = 0.8, near_enough = 0.85, good_enough = 0.93;
-// Standard errors of interpolation's estimate that are added before a round is called good enough.
+// Standard errors of an estimate that are added before a round is called good enough.
 constexpr double caution = 1;
 constexpr uint32_t most_rounds = 8;
 // The scale grows with the squared error of interpolation over what is allowed. For a smooth picture the fourth root would do; near
@@ -262,9 +262,10 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
         improve_levels(estimate, interpolation_share * first_part * estimate.shading(), 1);  // of what the rest of the time will leave
         return true;
     }
-    const double careful = std::sqrt(estimate.shading() + estimate.interpolation +
-                                     caution * std::hypot(estimate.interpolation_deviation, estimate.bias_deviation));
-    if (careful <= good_enough * target || estimate.error() <= near_enough * target) return false;
+    // A pixel that one bright sample made dominates what it is compared with: it is drawn anew rather than believed.
+    const double seen = estimate.shading() + estimate.interpolation + caution * estimate.noise_deviation;
+    const double careful = seen + caution * std::hypot(estimate.interpolation_deviation, estimate.bias_deviation);
+    if (std::sqrt(careful) <= good_enough * target || std::sqrt(seen) <= near_enough * target) return false;
     choose_witnesses(estimate);
     const double goal = this->goal(), share = share_of_interpolation(), shading_allowed = noise_allowed();
     // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again. What they may have seen
@@ -275,7 +276,7 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
                                estimate.shading() > blameless_noise * shading_allowed ? 1 : 0);
     if (!grown && estimate.shading() <= shading_allowed) {
         // Neither is to blame: what is left is doubt.
-        if (estimate.error() <= good_enough * target) return false;
+        if (std::sqrt(seen) <= good_enough * target) return false;
         grown = improve_levels(estimate, share * goal, 0);
     }
     const double kept = std::min(estimate.interpolation, share * goal);

@@ -131,7 +131,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
     const auto tile_of = [&](size_t i) -> ErrorEstimate::Tile& {
         return result.tiles[i / pixels.width / tile_side * tiles + i % pixels.width / tile_side];
     };
-    double spreads = 0, variances = 0, covered = 0;
+    double spreads = 0, variances = 0, squares = 0, covered = 0;
     for (size_t i = 0; i < pixels.material.size(); ++i) {
         if (pixels.material[i] == 0) continue;
         ErrorEstimate::Slot& own = result.slots[slot_of[pixels.material[i] - 1u]];
@@ -141,7 +141,9 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         if (!(scale > 0)) continue;  // a frame without light has no error
         const double spread = pixels.spread[4 * i] / scale;
         spreads += spread * spread;
-        variances += variance_of_mean(pixels, i) / (scale * scale);
+        const double variance = variance_of_mean(pixels, i) / (scale * scale);
+        variances += variance;
+        squares += variance * variance;
         if (!is_interpolated(pixels.decision[i])) continue;
         ++own.interpolated;
         ++tile_of(i).interpolated;
@@ -152,6 +154,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         result.stratification = (spreads + prior) / (variances + prior);
     }
     result.noise = result.stratification * variances / covered;
+    result.noise_deviation = result.stratification * std::sqrt(squares) / covered;
     const std::vector<Audited> audited = held_against(pixels, audit, 1, result);
     const double truth = truth_of_spreads(pixels, audited);
     std::vector<WitnessSums> witnesses(slots);
@@ -186,6 +189,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
 
 void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
     estimate->noise /= frames;
+    estimate->noise_deviation /= frames;
     estimate->stratification /= frames;
     const std::vector<Audited> audited = held_against(pixels, audit, frames, *estimate);
     add_bias(pixels, audited, truth_of_spreads(pixels, audited), estimate);

@@ -46,6 +46,8 @@ struct ErrorEstimate {
     };
     double mean_luminance = 0;
     double noise = 0;
+    // Standard error of it: where one sample made a pixel what it is, that pixel's square is in doubt by as much as itself.
+    double noise_deviation = 0;
     // Noise over what the samples' variance says of independent ones: stratified points err less.
     double stratification = 1;
     double interpolation = 0, interpolation_deviation = 0;  // the second: standard error of the first

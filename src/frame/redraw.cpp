@@ -12,6 +12,8 @@ namespace {
 // Samples that know their own variance as well as the mean of all pixels does: a variance of n samples of a kurtosis of this much is
 // off by as much as itself at n = kurtosis, and pixels differ among each other by about as much.
 constexpr double telling_samples = 16;
+// Up to so many times what a bin has is nearer to it than to the next: 2^(1 / 8).
+constexpr double half_a_bin = 1.0905;
 // Pixels are grouped by what they deserve over what they had, in steps of 2^(1 / 16).
 constexpr double steps_per_octave = 16;
 
@@ -66,6 +68,14 @@ double factor_leaving(double part, const std::vector<Candidate>& candidates) {
     return std::exp2(high);
 }
 
+// The nearest bin; but what is worth redrawing by a hair must not fall short of it by another.
+uint32_t bin_of(double deserved, uint32_t worth, const Budget& budget) {
+    const double nearest = std::min(half_a_bin * deserved, 0x1p31);
+    ptrdiff_t bin = std::max<ptrdiff_t>(std::upper_bound(budget.begin(), budget.end(), uint32_t(nearest)) - budget.begin(), 1) - 1;
+    if (nearest >= worth) bin = std::max(bin, std::lower_bound(budget.begin(), budget.end(), worth) - budget.begin());
+    return uint32_t(std::min<ptrdiff_t>(bin, budget_bins - 1));
+}
+
 }  // namespace
 
 Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uint32_t coarsest, double mean_luminance,
@@ -88,9 +98,7 @@ Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uin
     const double factor = !(deserved > 0) ? 0 : part > 0 ? factor_leaving(part, drawn) : had / deserved;
     std::map<std::pair<uint32_t, uint32_t>, double> groups;
     for (const Candidate& pixel : drawn) {
-        // The last bin whose samples are not more, but for rounding.
-        const auto after = std::upper_bound(budget.begin(), budget.end(), uint32_t(std::min(1.001 * factor * pixel.deserved, 0x1p31)));
-        const uint32_t bin = uint32_t(std::max<ptrdiff_t>(after - budget.begin(), 1) - 1);
+        const uint32_t bin = bin_of(factor * pixel.deserved, worth_redrawing * uint32_t(pixel.samples), budget);
         result.bins[pixel.at] = uint8_t(bin);
         ++groups[{bin, uint32_t(pixel.samples)}];
     }

@@ -64,14 +64,14 @@ def test_rounds_repeat_passes_and_add_none(context, sphere):
     # Where time is short there is none for a probe; where it is plenty, every pixel is shaded.
     spared = {"probe", "doubt"} | ({"upsample"} if frame.stats.shaded_pixels == frame.stats.covered_pixels else set())
     assert passes(frame) == [name for name in once if name not in spared]
-    assert passes(rendered(context, sphere, target_error=0.05)) == once
+    assert passes(rendered(context, sphere, target_error=0.1)) == once
 
 
 def test_where_interpolation_does_not_pay_nothing_is_interpolated(context, sphere):
     """An error so small that nearly every pixel is to be shaded is reached sooner where all are."""
     frame = rendered(context, sphere, target_error=0.001)
     assert frame.stats.shaded_pixels == frame.stats.covered_pixels and "upsample" not in passes(frame)
-    assert rendered(context, sphere, target_error=0.05).stats.shaded_pixels < frame.stats.shaded_pixels
+    assert rendered(context, sphere, target_error=0.1).stats.shaded_pixels < frame.stats.shaded_pixels
 
 
 def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):
