@@ -141,7 +141,8 @@ def fixed_section(rivals: list[dict]) -> str:
     if not lost:
         return prose(text + ".")
     return prose(text + ":") + "\n\n" + table(("scene", "seed", "asked", "got", "ms", "best fixed, ms"), [
-        (scene_name(row), f"{row['seed']}", percent(row["target"]), percent(row["got"]), f"{row['ms']:.0f}", f"{row['ms'] * row['best fixed']:.0f}")
+        (scene_name(row), f"{row['seed']}", percent(row["target"]), percent(row["got"]), f"{row['ms']:.0f}",
+         f"{row['ms'] * row['best fixed']:.0f}")
         for row in lost])
 
 

@@ -30,8 +30,8 @@ constexpr double expected_error = 0.3, least_probe = 16, most_probe = 512;
 // Part of a frame's time.
 constexpr double part_of_time = 0.06;
 
-// What pixels err by over what their variances tell, before any audit: as much, give or take half of that (over the scenes of
-// docs/trade.md 0.5 to 2.3 times, docs/decisions/0010).
+// What pixels err by over what their variances tell, before any audit: as much, give or take half of that
+// (docs/decisions/0010).
 constexpr double expected_doubt = 0.5;
 
 // Standard deviations of an unbiased look that chance may reach: at a few dozen pixels, one in a thousand each.

@@ -12,8 +12,8 @@ namespace {
 // Samples that know their own variance as well as the mean of all pixels does: a variance of n samples of a kurtosis of this much is
 // off by as much as itself at n = kurtosis, and pixels differ among each other by about as much.
 constexpr double telling_samples = 16;
-// Up to so many times what a bin has is nearer to it than to the next: 2^(1 / 8).
-constexpr double half_a_bin = 1.0905;
+// Up to so many times what a bin has is nearer to it than to the next.
+const double half_a_bin = std::exp2(0.5 / bins_per_octave);
 // Pixels are grouped by what they deserve over what they had, in steps of 2^(1 / 16).
 constexpr double steps_per_octave = 16;
 
