@@ -15,14 +15,14 @@ const float even_part = 0.1;  // of all samples
 
 void find_clusters(Pixel pixel) {
     // The lobe's own density is f over its albedo.
-    float worth = MAP_WORTH * importance_albedo(pixel.view), sum = 0.0;
+    float worth = MAP_WORTH * importance_albedo(pixel.lobe.view), sum = 0.0;
     clusters_above = uvec2(0);
     for (int k = 0; k < MAP_CLUSTERS; ++k) {
         vec4 cluster = map_clusters[2 * k];
         vec3 wi = cluster.xyz * pixel.frame;
         float odds = 0.0;
         if (may_be_above(wi, cluster.w)) {
-            float f = lobe_importance(pixel.view, middle_above(wi, cluster.w)), density = worth * map_clusters[2 * k + 1].x;
+            float f = lobe_importance(pixel.lobe.view, middle_above(wi, cluster.w)), density = worth * map_clusters[2 * k + 1].x;
             if (f > 0.0) odds = density / (1.0 + density / f);
             clusters_above[k >> 5] |= 1u << (k & 31);
         }
@@ -67,7 +67,7 @@ vec4 sample_clusters(Pixel pixel, uint n, float share, uint which, inout uint st
         if (wi.z > 0.0 && chance > 0.0) {
             vec4 light = texelFetch(map_points, index + 1);
             vec2 density;
-            vec3 value = evaluate_lobe(pixel.wo, pixel.view, wi, density) * light.rgb;
+            vec3 value = evaluate_lobe(pixel.lobe, wi, density) * light.rgb;
             float part = 1.0 - part_of_lobe(density, light.a);
             sum += with_square(value * (share * point.w / (chance * float(MAP_CLUSTERS)) * part));
         }

@@ -23,6 +23,23 @@ float polar_angle(float cosine) {
     return cosine < 0.0 ? pi - a : a;
 }
 
+// The angle of the line through the origin and (x, y), in [0, pi]; 0 where that is no line. Arc tangent by Abramowitz and Stegun
+// 4.4.49, error at most 2e-8.
+float angle_of_line(float y, float x) {
+    float most = max(abs(x), abs(y)), t = most > 0.0 ? min(abs(x), abs(y)) / most : 0.0, t2 = t * t;
+    float p = 0.0028662257;
+    p = p * t2 - 0.0161657367;
+    p = p * t2 + 0.0429096138;
+    p = p * t2 - 0.0752896400;
+    p = p * t2 + 0.1065626393;
+    p = p * t2 - 0.1420889944;
+    p = p * t2 + 0.1999355085;
+    p = p * t2 - 0.3333314528;
+    float angle = t + t * t2 * p;
+    if (abs(y) > abs(x)) angle = 0.5 * pi - angle;
+    return (x < 0.0) != (y < 0.0) && angle > 0.0 ? pi - angle : angle;
+}
+
 // Latitude-longitude maps: u, v in [0, 1], v down; +Y is up, u = 0.5 looks along +Z.
 vec2 latitude_longitude(vec3 d) {
     float longitude = d.x == 0.0 && d.z == 0.0 ? 0.0 : atan(d.x, d.z);

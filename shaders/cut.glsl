@@ -25,7 +25,7 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
         vec3 wi = part.xyz * pixel.frame;
         if (may_be_above(wi, part.w)) {
             vec4 flux = trunk[2 * k + 1];
-            float importance = lobe_importance(pixel.view, middle_above(wi, part.w)), wish = sqrt(flux.w * importance);
+            float importance = lobe_importance(pixel.lobe.view, middle_above(wi, part.w)), wish = sqrt(flux.w * importance);
             wishes[seen_count] = wish;
             seen[seen_count++] = uint(k);
             sum += wish;
@@ -36,7 +36,7 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
     vec3 light = vec3(0);
     // One loop over all parts of both cuts, so that neighbours run equally long. place, depth: of a part in its heap; wanted: the
     // depth of the cut there; start: that of the coarser cut.
-    uint k = 0u, heap = 0u, wanted = 0u, start = 0u, depth = 0u, place = 2u;
+    uint k = 0u, trunk_part = 0u, wanted = 0u, start = 0u, depth = 0u, place = 2u;
     coarser = 0.0;
     bool halved = false;
     while (true) {
@@ -44,21 +44,21 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
             if (k == seen_count) break;
             wanted = uint(clamp(round(log2(max(scale * wishes[k], 1.0))), 0.0, float(TREE_DEPTH)));
             start = depth = max(wanted, 1u) - 1u;
-            heap = seen[k++] * TREE_HEAP;
+            trunk_part = seen[k++];
             place = 1u << start;
         }
-        int index = part_size * int(heap + place);
+        int index = part_size * int(place * uint(TRUNK_PARTS + COARSE_TRUNK_PARTS) + trunk_part);  // LightTree::index
         vec4 part = texelFetch(light_parts, index);
         vec3 wi = part.xyz * pixel.frame, value = vec3(0);
         int layer = 0;
         if (wi.z > 0.0) {
             vec2 density;
-            value = evaluate_lobe(pixel.wo, pixel.view, wi, density);
+            value = evaluate_lobe(pixel.lobe, wi, density);
             layer = light_layer(density);
         }
         vec4 flux = layer < LIGHT_LAYERS ? texelFetch(light_parts, index + 1 + layer) : vec4(0);
         float brightness = luminance(value);
-        if (abs(wi.z) < part.w + grazing) brightness = max(brightness, lobe_peak(pixel.view, middle_above(wi, part.w)));
+        if (abs(wi.z) < part.w + grazing) brightness = max(brightness, lobe_peak(pixel.lobe.view, middle_above(wi, part.w)));
         bool surprises = too_much > 0.0 && luminance(flux.rgb) * brightness > too_much;
         // The coarser cut has the parts at which this one starts; of one that surprises, its halves.
         if (depth == start) halved = surprises;

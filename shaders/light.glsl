@@ -50,17 +50,36 @@ int light_layer(vec2 density) { return 0; }
 
 // Bilinear lookups widen a footprint by about so much: error was least at a half of its area (docs/decisions/0009).
 const float footprint_size = 0.5;
+// Smaller footprints, in finest texels, are lookups of the map itself: with a quarter of one, errors were as small as with a whole
+// one or smaller (docs/decisions/0011), and fewer samples are so narrow.
+const float least_texels = 0.25;
 
-// The mean over a sample's footprint, of which the whole lobe holds that many, of what a cut leaves it.
-vec3 light_for_lobe(vec3 direction, vec2 density, float footprints) {
+// A texel covers 4 reach^3 / side^2 steradians, reach being at most sqrt(3).
+float texels_covered(vec3 direction, float steradians) {
     float reach = octahedral_reach(direction), side = float(textureSize(footprint_light, 0).x);
+    return footprint_size * side * side * steradians / (4.0 * reach * reach * reach);
+}
+
+// What is drawn less densely than this is no lookup of the map, wherever it comes from.
+float density_of_map(float footprints) {
+    float side = float(textureSize(footprint_light, 0).x);
+    return footprint_size * side * side / (4.0 * 5.196152 * least_texels * footprints);
+}
+
+// The mean over a sample's footprint, of which the whole lobe holds that many, of what a cut leaves it. Of a footprint that is smaller
+// than a texel, the finest texels.
+vec3 light_of_footprint(vec3 direction, vec2 density, float footprints) {
     int layer = light_layer(density);
-    // Over a footprint, 1 / (footprints density) steradians; a texel covers 4 reach^3 / side^2.
-    float texels = footprint_size * side * side * density.y / (4.0 * footprints * reach * reach * reach);
-    if (layer < LIGHT_LAYERS && texels > density.x) {
-        vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels / density.x));
-        return mean.rgb * (light_unit / mean.a);
-    }
+    float texels = texels_covered(direction, density.y / footprints) / density.x;
+    vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels));
+    return mean.rgb * (light_unit / mean.a);
+}
+
+// The same, where that may be: the map's own light instead.
+vec3 light_for_lobe(vec3 direction, vec2 density, float footprints) {
+    int layer = light_layer(density);
+    if (layer < LIGHT_LAYERS && texels_covered(direction, density.y / footprints) > least_texels * density.x)
+        return light_of_footprint(direction, density, footprints);
     vec4 light = light_from(direction);
     return layer < LIGHT_LAYERS ? light.rgb * part_below(layer, light.a) : light.rgb;
 }

@@ -2,6 +2,15 @@
 // trilinear lookup), LOBE_LAMBERT or LOBE_GGX. Local frame, wo at azimuth 0. The double-precision originals are
 // src/sampling/lobe_sampler.cpp and src/scene/brdf.cpp.
 
+// The lobe towards one outgoing direction.
+struct Lobe {
+    vec3 wo;
+    int view;  // of the tables
+#if defined(LOBE_TABLE)
+    float per_value, even;  // see target_density
+#endif
+};
+
 int lobe_view(float cos_outgoing) { return min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1); }
 
 layout(binding = 12) uniform samplerBuffer lobe_importances;  // src/sampling/lobe_sampler.h, LobeImportance
@@ -27,6 +36,7 @@ layout(binding = 2) uniform samplerBuffer brdf_cells;     // RGB / table_scale, 
 layout(binding = 3) uniform samplerBuffer lobe_x;         // start and width of each step of x
 layout(binding = 4) uniform samplerBuffer lobe_phi;       // start and width of each step of phi
 layout(binding = 9) uniform samplerBuffer lobe_albedo;    // what the density of each view is proportional to
+layout(binding = 8) uniform samplerBuffer lobe_denser;   // src/sampling/lobe_sampler.h, LobeTable::denser
 uniform float table_scale;
 
 const int half_cells = 90, diff_cells = 90, phi_cells = 180;
@@ -60,66 +70,81 @@ vec3 table_value(float x, float theta_diff, float phi_diff) {
 // f cos(theta_i) for a half vector of known x and angle to wo.
 vec3 lobe_value(vec3 wi, vec3 h, float x, float oh) {
     float phi_y = wi.y * h.x - wi.x * h.y, phi_x = h.z * oh - wi.z;
-    float phi_diff = phi_x == 0.0 && phi_y == 0.0 ? 0.0 : atan(phi_y, phi_x);
-    if (phi_diff < 0.0) phi_diff += pi;
+    float phi_diff = angle_of_line(phi_y, phi_x);
     return table_value(x, acos_near(min(oh, 1.0), 1.0 - oh), phi_diff) * (table_scale * wi.z);
+}
+
+Lobe lobe_towards(vec3 wo) {
+    int view = lobe_view(wo.z);
+    float albedo = texelFetch(lobe_albedo, view).r, even = 1.0 / (2.0 * pi);
+    return albedo > 0.0 ? Lobe(wo, view, (1.0 - LOBE_DEFENSIVE) / albedo, LOBE_DEFENSIVE * even) : Lobe(wo, view, 0.0, even);
+}
+
+// The part of samples, by their first coordinate, beyond which none is drawn more densely than that, per steradian.
+float part_denser_than(Lobe lobe, float density) {
+    int octave = int(floor(log2(density))) - LOBE_FIRST_OCTAVE;
+    if (octave < 0) return 1.0;
+    return texelFetch(lobe_denser, lobe.view * LOBE_OCTAVES + min(octave, LOBE_OCTAVES - 1)).r;
 }
 
 // The sampler's density over (x, phi) as its target defines it: f cos / albedo and an even part. The drawn density follows it in
 // steps; for weights that must agree between two samplers, this one serves.
-float target_density(vec3 value, int view, float solid_angle) {
-    float albedo = texelFetch(lobe_albedo, view).r;
-    float even = 1.0 / (2.0 * pi);
-    return albedo > 0.0 ? (1.0 - LOBE_DEFENSIVE) * dot(value, vec3(1.0 / 3.0)) * solid_angle / albedo + LOBE_DEFENSIVE * even
-                        : even;
+float target_density(Lobe lobe, vec3 value, float solid_angle) {
+    return lobe.per_value * dot(value, vec3(1.0 / 3.0)) * solid_angle + lobe.even;
 }
 
 // weight = f cos(theta_i) / pdf; density: see evaluate_lobe. False: below the horizon, carries nothing.
-bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
+bool sample_lobe(Lobe lobe, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
     weight = vec3(0);
     density = vec2(1, 0);
     float scaled_x = u.x * LOBE_RADIAL;
     int k = int(scaled_x);
-    vec2 xs = texelFetch(lobe_x, view * LOBE_RADIAL + k).xy;
+    vec2 xs = texelFetch(lobe_x, lobe.view * LOBE_RADIAL + k).xy;
     float x = xs.x + (scaled_x - k) * xs.y;
 
     float scaled_phi = (u.y < 0.5 ? 2.0 * u.y : 2.0 - 2.0 * u.y) * LOBE_AZIMUTHAL;
     int l = min(int(scaled_phi), LOBE_AZIMUTHAL - 1);
-    vec2 ps = texelFetch(lobe_phi, (view * LOBE_RADIAL + k) * LOBE_AZIMUTHAL + l).xy;
+    vec2 ps = texelFetch(lobe_phi, (lobe.view * LOBE_RADIAL + k) * LOBE_AZIMUTHAL + l).xy;
     float phi = ps.x + (scaled_phi - l) * ps.y;
 
     float theta = x * x * (0.5 * pi);
     float sin_theta = sin(theta), cos_theta = cos(theta);
     vec3 h = vec3(sin_theta * cos(phi), (u.y < 0.5 ? sin_theta : -sin_theta) * sin(phi), cos_theta);
-    float oh = dot(wo, h);
-    wi = 2.0 * oh * h - wo;
+    float oh = dot(lobe.wo, h);
+    wi = 2.0 * oh * h - lobe.wo;
     if (oh <= 0.0 || wi.z <= 0.0) return false;
 
     vec3 value = lobe_value(wi, h, x, oh);
     float solid_angle = 4.0 * oh * sin_theta * pi * x;                              // d(wi) / d(x, phi)
     float area = xs.y * ps.y * float(2 * LOBE_RADIAL * LOBE_AZIMUTHAL);             // 1 / density over (x, phi)
     weight = value * (solid_angle * area);
-    density = vec2(target_density(value, view, solid_angle), solid_angle);
+    density = vec2(target_density(lobe, value, solid_angle), solid_angle);
     return true;
 }
 
 // f cos(theta_i) for a given wi above the horizon. density: the sampler's density there as a fraction, so that the mirror
 // direction of a table, where (x, phi) shrinks to a point, is no division by zero: density.x / density.y per steradian.
-vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
-    vec3 h = normalize(wi + wo);
-    float squared = dot(h.xy, h.xy), oh = dot(wo, h);
+vec3 evaluate_lobe(Lobe lobe, vec3 wi, out vec2 density) {
+    vec3 h = normalize(wi + lobe.wo);
+    float squared = dot(h.xy, h.xy), oh = dot(lobe.wo, h);
     float x = sqrt(acos_near(h.z, squared / (1.0 + h.z)) * (2.0 / pi));
     vec3 value = lobe_value(wi, h, x, oh);
     float solid_angle = 4.0 * oh * sqrt(squared) * pi * x;
-    density = vec2(target_density(value, view, solid_angle), solid_angle);
+    density = vec2(target_density(lobe, value, solid_angle), solid_angle);
     return value;
 }
 
-#elif defined(LOBE_LAMBERT)
+#else
+
+Lobe lobe_towards(vec3 wo) { return Lobe(wo, lobe_view(wo.z)); }
+
+#if defined(LOBE_LAMBERT)
 
 uniform vec3 albedo;
 
-bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
+float part_denser_than(Lobe lobe, float density) { return density < 1.0 / pi ? 1.0 : 0.0; }
+
+bool sample_lobe(Lobe lobe, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
     float r = sqrt(u.x), phi = 2.0 * pi * u.y;
     wi = vec3(r * cos(phi), r * sin(phi), sqrt(1.0 - u.x));
     weight = albedo;
@@ -127,7 +152,7 @@ bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out ve
     return true;
 }
 
-vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
+vec3 evaluate_lobe(Lobe lobe, vec3 wi, out vec2 density) {
     density = vec2(wi.z, pi);
     return albedo * (wi.z / pi);
 }
@@ -154,30 +179,36 @@ vec2 visible_density(vec3 h, vec3 wo) {
     return vec2(0.5 / (wo.z + smith(wo.z)), pi * t * t);
 }
 
+float part_denser_than(Lobe lobe, float density) {
+    vec2 peak = visible_density(vec3(0, 0, 1), lobe.wo);
+    return density * peak.y < peak.x ? 1.0 : 0.0;
+}
+
 // Visible normals (Heitz 2018); f cos(theta_i) / pdf = F G2 / G1.
-bool sample_lobe(vec3 wo, int view, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
-    vec3 v = normalize(vec3(alpha * wo.x, 0.0, wo.z));
+bool sample_lobe(Lobe lobe, vec2 u, out vec3 wi, out vec3 weight, out vec2 density) {
+    vec3 v = normalize(vec3(alpha * lobe.wo.x, 0.0, lobe.wo.z));
     float r = sqrt(u.x), azimuth = 2.0 * pi * u.y;
     float t1 = r * cos(azimuth), s = 0.5 * (1.0 + v.z);
     float t2 = (1.0 - s) * sqrt(max(0.0, 1.0 - t1 * t1)) + s * r * sin(azimuth);
     float t3 = sqrt(max(0.0, 1.0 - t1 * t1 - t2 * t2));
     vec3 n = t1 * vec3(0, 1, 0) + t2 * vec3(-v.z, 0, v.x) + t3 * v;
     vec3 h = normalize(vec3(alpha * n.x, alpha * n.y, max(n.z, 0.0)));
-    float oh = dot(wo, h);
-    wi = 2.0 * oh * h - wo;
+    float oh = dot(lobe.wo, h);
+    wi = 2.0 * oh * h - lobe.wo;
     weight = vec3(0);
     density = vec2(1, 0);
     if (wi.z <= 0.0) return false;
-    weight = fresnel(oh) * (wi.z * (wo.z + smith(wo.z)) / (wo.z * smith(wi.z) + wi.z * smith(wo.z)));
-    density = visible_density(h, wo);
+    weight = fresnel(oh) * (wi.z * (lobe.wo.z + smith(lobe.wo.z)) / (lobe.wo.z * smith(wi.z) + wi.z * smith(lobe.wo.z)));
+    density = visible_density(h, lobe.wo);
     return true;
 }
 
-vec3 evaluate_lobe(vec3 wo, int view, vec3 wi, out vec2 density) {
-    vec3 h = normalize(wi + wo);
-    density = visible_density(h, wo);
+vec3 evaluate_lobe(Lobe lobe, vec3 wi, out vec2 density) {
+    vec3 h = normalize(wi + lobe.wo);
+    density = visible_density(h, lobe.wo);
     // D / density.x * density.y = 1: D = 1 / (pi t^2) = 1 / density.y.
-    return fresnel(dot(wo, h)) * (wi.z * 0.5 / (density.y * (wo.z * smith(wi.z) + wi.z * smith(wo.z))));
+    return fresnel(dot(lobe.wo, h)) * (wi.z * 0.5 / (density.y * (lobe.wo.z * smith(wi.z) + wi.z * smith(lobe.wo.z))));
 }
 
+#endif
 #endif

@@ -20,15 +20,14 @@ uniform uint part;    // PART_SAMPLES of each pixel were drawn in every part bef
 
 struct Pixel {
     mat3 frame;  // columns: the local frame in world space
-    vec3 wo;     // local
-    int view;    // of the lobe's tables
+    Lobe lobe;   // local
 };
 
 Pixel pixel_at(ivec2 at) {
     vec3 normal = texelFetch(normals, at, 0).xyz;
     vec3 wo_world = -normalize(texelFetch(positions, at, 0).xyz);
     float cosine = min(dot(normal, wo_world), 1.0);
-    return Pixel(local_frame(normal, wo_world), vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine), lobe_view(cosine));
+    return Pixel(local_frame(normal, wo_world), lobe_towards(vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine)));
 }
 
 vec4 with_square(vec3 value) {
@@ -63,40 +62,58 @@ const float cut_share = 0.55;
 const float most_doubt = 0.5;
 #endif
 
-// Sum over n samples of the lobe of their values (RGB) and of their squared luminances. footprints: parts of the lobe that its samples
-// stand for. share: of all samples for each of these. odd: the luminance of every other one.
-vec4 sample_lobes(Pixel pixel, uint n, float footprints, float share, inout uint state, out float odd) {
-    vec4 sum = vec4(0);
-    odd = 0.0;
-#if !defined(SEQUENCE_RANDOM)
+// What a sample of the lobe brings: RGB. footprints: parts of the lobe that its samples stand for; wide: none is a lookup of the map.
+vec3 light_of_sample(Pixel pixel, vec2 u, float footprints, bool wide) {
+    vec3 wi, weight;
+    vec2 density;
+    if (!sample_lobe(pixel.lobe, u, wi, weight, density)) return vec3(0);
+    vec3 direction = pixel.frame * wi;
+#if defined(FILTERED)
+    return weight * (wide ? light_of_footprint(direction, density, footprints) : light_for_lobe(direction, density, footprints));
+#else
+    vec4 light = light_from(direction);
+#if defined(SAMPLER_COMBINED)
+    light *= part_of_lobe(density, light.a);
+#endif
+    return weight * light.rgb;
+#endif
+}
+
+// A sum over samples: of RGB and squared luminance; and of every other one's luminance.
+struct Sum {
+    vec4 all;
+    float odd;
+};
+
+void add(inout Sum sum, uint i, vec3 light) {
+    sum.all += with_square(light);
+    if ((i & 1u) != 0u) sum.odd += luminance(light);
+}
+
+// Sum over n samples of the lobe; share: of all samples for each of these.
+Sum sample_lobes(Pixel pixel, uint n, float footprints, float share, inout uint state) {
+    Sum sum = Sum(vec4(0), 0.0);
+    uint i = 0u;
+#if defined(SEQUENCE_RANDOM)
+    for (; i < n; ++i) {
+        vec2 u = vec2(unit(next_random(state)), unit(next_random(state)));
+        add(sum, i, share * light_of_sample(pixel, u, footprints, false));
+    }
+#else
     // The lattice of the golden ratio under a shift of each pixel's own: even points, a mean without bias.
     const uint golden_ratio = 2654435769u;  // its fraction in 32 bits
     const float below_one = 0.99999994;
     uint turn = next_random(state);
     float offset = unit(next_random(state));
-#endif
-    for (uint i = 0u; i < n; ++i) {
-#if defined(SEQUENCE_RANDOM)
-        vec2 u = vec2(unit(next_random(state)), unit(next_random(state)));
-#else
-        vec2 u = vec2(min((float(i) + offset) / float(n), below_one), unit(i * golden_ratio + turn));
-#endif
-        vec3 wi, weight;
-        vec2 density;
-        if (!sample_lobe(pixel.wo, pixel.view, u, wi, weight, density)) continue;
+#define LATTICE_POINT vec2(min((float(i) + offset) / float(n), below_one), unit(i * golden_ratio + turn))
 #if defined(FILTERED)
-        vec3 light = light_for_lobe(pixel.frame * wi, density, footprints);
-#else
-        vec4 whole = light_from(pixel.frame * wi);
-        vec3 light = whole.rgb;
-#if defined(SAMPLER_COMBINED)
-        light *= part_of_lobe(density, whole.a);
+    // Software renderers may run both sides of every branch: what only the densest samples need has a loop of its own
+    // (docs/decisions/0011). It runs once at least.
+    uint dense = clamp(uint(ceil(part_denser_than(pixel.lobe, density_of_map(footprints)) * float(n))), 1u, n);
+    for (; i < dense; ++i) add(sum, i, share * light_of_sample(pixel, LATTICE_POINT, footprints, false));
 #endif
+    for (; i < n; ++i) add(sum, i, share * light_of_sample(pixel, LATTICE_POINT, footprints, true));
 #endif
-        vec4 drawn = with_square(share * weight * light);
-        sum += drawn;
-        if ((i & 1u) != 0u) odd += luminance(drawn.rgb);
-    }
     return sum;
 }
 
@@ -107,15 +124,15 @@ vec4 sample_lobes(Pixel pixel, uint n, float footprints, float share, inout uint
 // whole errs.
 void draw(Pixel pixel, uvec2 each, uint total, inout vec4 sum, inout vec2 luminances, inout uint state) {
     uint n = each.x + each.y, from_lobe = n;
-    float footprints = float(total), odd;
+    float footprints = float(total);
 #if defined(SAMPLER_CUT)
     if (n > 2u) from_lobe = (n + 1u) / 2u;  // as many again are parts of the cut
     footprints *= 0.5;
 #endif
-    vec4 drawn = sample_lobes(pixel, from_lobe, footprints, 1.0, state, odd);
-    sum += drawn * (float(n) / float(from_lobe));
+    Sum drawn = sample_lobes(pixel, from_lobe, footprints, 1.0, state);
+    sum += drawn.all * (float(n) / float(from_lobe));
     vec2 lobes = vec2((from_lobe + 1u) / 2u, max(from_lobe / 2u, 1u));
-    luminances += vec2(each) / lobes * vec2(luminance(drawn.rgb) - odd, odd);
+    luminances += vec2(each) / lobes * vec2(luminance(drawn.all.rgb) - drawn.odd, drawn.odd);
 }
 #else
 // Two that share nothing.
@@ -123,12 +140,11 @@ void draw(Pixel pixel, uvec2 each, uint total, inout vec4 sum, inout vec2 lumina
     for (uint which = 0u; which < 2u; ++which) {
         uint n = each[which];
         if (n == 0u) continue;
-        float odd;
 #if defined(SAMPLER_COMBINED)
         uint from_map = (n + (next_random(state) >> 31)) / 2u;  // half of an odd number by chance
-        vec4 drawn = sample_lobes(pixel, n - from_map, 0.0, 2.0, state, odd) + sample_clusters(pixel, from_map, 2.0, which, state);
+        vec4 drawn = sample_lobes(pixel, n - from_map, 0.0, 2.0, state).all + sample_clusters(pixel, from_map, 2.0, which, state);
 #else
-        vec4 drawn = sample_lobes(pixel, n, 0.0, 1.0, state, odd);
+        vec4 drawn = sample_lobes(pixel, n, 0.0, 1.0, state).all;
 #endif
         sum += drawn;
         luminances[which] += luminance(drawn.rgb);

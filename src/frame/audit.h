@@ -14,10 +14,11 @@ namespace lightband {
 bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part);
 
 struct Audit {
-    // Luminance; half the difference of its two replicates; and its standard deviation, as if its samples were independent.
+    // Luminance; half the difference of its two replicates; its standard deviation, as if its samples were independent; and what was
+    // predicted of it (0: nothing was).
     struct Pixel {
         uint32_t at;  // y * width + x
-        float mean, spread, deviation;
+        float mean, spread, deviation, expected;
         bool biased;  // whether by the frame's own sampler, which errs as it does, but less
     };
     std::vector<Pixel> pixels;

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "frame/job.h"
+#include "passes/gather.h"
 
 namespace lightband {
 namespace {
@@ -26,21 +27,24 @@ std::vector<uint32_t> Frame::draw(const Job& job, double part) const {
 std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<uint32_t>& drawn, const Settings& own, uint32_t samples,
                                              uint32_t seed) const {
     const Result& next = *job.result;
-    next.shading.clear(device_->gl());
+    next.shading.forget(device_->gl());
     next.shading.decide_all(device_->gl());
+    const auto slot_of = [&](uint32_t at) { return next.slot_of[job.material[at] - 1u]; };
     std::vector<std::vector<uint32_t>> of_slot(job.slots.materials.size());  // y << 16 | x
-    for (const uint32_t at : drawn) of_slot[next.slot_of[job.material[at] - 1u]].push_back(at / width_ << 16 | at % width_);
+    for (const uint32_t at : drawn) of_slot[slot_of(at)].push_back(at / width_ << 16 | at % width_);
     const passes::ShadingList list = passes::even_list(*device_, of_slot, samples);
     passes::shade(*device_, job.scene, job.slots, own, {seed, seed}, list, next.gbuffer, next.shading,
                   [&](uint64_t) { job.report(0); });
-    std::vector<float> radiance(pixels() * 4), spread(pixels());
-    next.shading.radiance.read(0, GL_RGBA, GL_FLOAT, radiance.size() * sizeof(float), radiance.data());
-    next.shading.spread.read(0, GL_RED, GL_FLOAT, spread.size() * sizeof(float), spread.data());
+    const std::vector<passes::Gathered> shown =
+        passes::gather(*device_, list, next.shading, next.prediction ? &*next.prediction : nullptr);
+    std::vector<size_t> next_of(of_slot.size());  // slot by slot, as listed
+    for (size_t slot = 1; slot < of_slot.size(); ++slot) next_of[slot] = next_of[slot - 1] + of_slot[slot - 1].size();
     std::vector<Audit::Pixel> seen;
     for (const uint32_t at : drawn) {
-        const double mean = luminance(Vec3(radiance[4 * at], radiance[4 * at + 1], radiance[4 * at + 2]));
-        const double variance = std::max(radiance[4 * at + 3] - mean * mean, 0.0) / (samples - 1);
-        seen.push_back({at, float(mean), spread[at], float(std::sqrt(variance)), own.sampler() == Sampler::cut});
+        const passes::Gathered& pixel = shown[next_of[slot_of(at)]++];
+        const double mean = luminance(Vec3(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]));
+        const double variance = std::max(pixel.square - mean * mean, 0.0) / (samples - 1);
+        seen.push_back({at, float(mean), pixel.spread, float(std::sqrt(variance)), pixel.expected, own.sampler() == Sampler::cut});
     }
     return seen;
 }
@@ -67,11 +71,9 @@ void Frame::audit(Job* job, Forecast* forecast) const {
 
 // The mean squared error that a probe's pixels have.
 double Frame::probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const {
-    std::vector<float> prediction(pixels() * 2);
-    job.result->prediction->prediction.read(0, GL_RG, GL_FLOAT, prediction.size() * sizeof(float), prediction.data());
     AuditSum sum;
     for (size_t k = 0; k < probe.size(); ++k) {
-        const double scale = scale_of(probe[k].mean, prediction[2 * probe[k].at + 1], forecast.mean_radiance);
+        const double scale = scale_of(probe[k].mean, probe[k].expected, forecast.mean_radiance);
         if (!(scale > 0)) continue;
         const double told = std::pow(probe[k].spread / scale, 2);
         if (job.audited > 0) {

@@ -31,9 +31,13 @@ Shading::Shading(const gl::Functions& gl, uint32_t width, uint32_t height)
 
 void Shading::clear(const gl::Functions& gl) const {
     const float zeros[4] = {0, 0, 0, 0};
-    const uint32_t none = 0;
     gl.ClearTexImage(radiance.name(), 0, GL_RGBA, GL_FLOAT, zeros);
     gl.ClearTexImage(spread.name(), 0, GL_RGBA, GL_FLOAT, zeros);
+    forget(gl);
+}
+
+void Shading::forget(const gl::Functions& gl) const {
+    const uint32_t none = 0;
     gl.ClearTexImage(sample_count.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
 }
 

@@ -35,6 +35,7 @@
     X(PFNGLENABLEPROC, Enable)                             \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib) \
     X(PFNGLFINISHPROC, Finish)                             \
+    X(PFNGLFLUSHPROC, Flush)                               \
     X(PFNGLGETERRORPROC, GetError)                         \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                   \
     X(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData) \

@@ -1,11 +1,16 @@
 #include "passes/gbuffer.h"
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "passes/dispatch.h"
 
 namespace lightband::passes {
 namespace {
+
+// A mesh is drawn in so many pieces: a software renderer fills the pixels of one on all cores while one core sets up the next.
+// Of 4 to 32 pieces of 70,000 triangles, 8 took least: three quarters of the time of one.
+constexpr GLsizei pieces = 8;
 
 // From the eye's frame with world axes to clip space. Row 0 of the picture lies at the top, and depth is reversed (1 near,
 // 0 far): floating-point depth then keeps its digits from 1e-4 to 1e6.
@@ -31,7 +36,12 @@ void draw(gl::Device& device, const gl::Program& program, const Instance& instan
     program.set_matrix3("normal_matrix", glm::value_ptr(normals));
     program.set("instance", number + 1);
     device.gl().BindVertexArray(instance.mesh->vertex_array().name());
-    device.gl().DrawElements(GL_TRIANGLES, instance.mesh->index_count(), GL_UNSIGNED_INT, nullptr);
+    const GLsizei all = instance.mesh->index_count(), piece = 3 * ((all / 3 + pieces - 1) / pieces);
+    for (GLsizei first = 0; first < all; first += piece) {
+        const size_t offset = size_t(first) * sizeof(uint32_t);
+        device.gl().DrawElements(GL_TRIANGLES, std::min(piece, all - first), GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+        device.gl().Flush();
+    }
 }
 
 }  // namespace

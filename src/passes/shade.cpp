@@ -18,8 +18,7 @@ std::string definitions(const Material& material, const Settings& settings) {
     switch (settings.sampler()) {
         case Sampler::cut:
             result += text("\nSAMPLER_CUT\nFILTERED\nTRUNK_PARTS ", LightTree::trunks[0].count, "\nCOARSE_TRUNK_PARTS ",
-                           LightTree::trunks[1].count, "\nTREE_DEPTH ", LightTree::depth, "u\nTREE_HEAP ", LightTree::heap,
-                           "u\nCEILING_WORTH ", Ceilings::worth, "\n",
+                           LightTree::trunks[1].count, "\nTREE_DEPTH ", LightTree::depth, "u\nCEILING_WORTH ", Ceilings::worth, "\n",
                            FootprintLight::definitions(FootprintLight::Kind::below_ceilings));
             break;
         case Sampler::combined:

@@ -209,19 +209,19 @@ std::vector<Run> trunk_of(std::vector<Block>* blocks, uint32_t count) {
     return trunk;
 }
 
-void fill_heap(const Run& run, uint32_t place, LightPart* heap) {
-    heap[place] = part_of(run);
+void fill_heap(const Run& run, uint32_t place, size_t trunk_part, LightTree* tree) {
+    tree->parts[LightTree::index(trunk_part, place)] = part_of(run);
     if (2 * place >= LightTree::heap) return;
     Run low, high;
     if (halve(run, &low, &high)) {
-        fill_heap(low, 2 * place, heap);
-        fill_heap(high, 2 * place + 1, heap);
+        fill_heap(low, 2 * place, trunk_part, tree);
+        fill_heap(high, 2 * place + 1, trunk_part, tree);
         return;
     }
     for (uint32_t half = 0; half < 2; ++half) {
         std::vector<Block> blocks(run.first, run.last);
         for (Block& block : blocks) block = half_of(block, half == 0 ? -1 : 1);
-        fill_heap(run_of(blocks.data(), blocks.data() + blocks.size()), 2 * place + half, heap);
+        fill_heap(run_of(blocks.data(), blocks.data() + blocks.size()), 2 * place + half, trunk_part, tree);
     }
 }
 
@@ -233,7 +233,7 @@ LightTree light_tree(const RgbImage& map, const MapSampler& sampler, Lookup look
     tree.parts.resize(size_t(LightTree::trunk_parts) * LightTree::heap);
     for (const LightTree::Trunk& own : LightTree::trunks) {
         const std::vector<Run> trunk = trunk_of(&blocks, own.count);
-        for (size_t i = 0; i < trunk.size(); ++i) fill_heap(trunk[i], 1, &tree.parts[(own.first + i) * LightTree::heap]);
+        for (size_t i = 0; i < trunk.size(); ++i) fill_heap(trunk[i], 1, own.first + i, &tree);
     }
     return tree;
 }

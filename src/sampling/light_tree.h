@@ -45,8 +45,9 @@ struct LightTree {
     static constexpr uint32_t heap = 2u << depth;
 
     // Of each part of either trunk a heap: its parts after d halvings are those from place 2^d to 2^(d + 1); place 0 is unused. The
-    // last ones are empty where the light has fewer places.
-    std::vector<LightPart> parts;  // trunk_parts * heap
+    // last ones are empty where the light has fewer places. The same place of all heaps lies together: most cuts need the first few.
+    std::vector<LightPart> parts;  // heap * trunk_parts
+    static constexpr size_t index(size_t trunk_part, size_t place) { return place * trunk_parts + trunk_part; }
 };
 
 // Linear lookup lights between texels as a shader does.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bandwidth/octahedral.h"
 
@@ -11,6 +12,8 @@ namespace {
 // The grid on which a lobe's density is computed before it is inverted.
 constexpr int grid_x = 2 * int(BrdfTable::theta_half_cells);
 constexpr int grid_phi = 64;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double mean(const Vec3& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
 
@@ -42,12 +45,13 @@ void invert(const std::vector<double>& mass, double end, int steps, LobeTable::S
 }
 
 struct LobeGrid {
-    std::vector<double> mass;  // grid_x * grid_phi, defensive part included
+    std::vector<double> mass;         // grid_x * grid_phi, defensive part included
+    std::vector<double> most_dense;   // per row of x: the sampler's density, at most, per steradian
     double albedo;
 };
 
 LobeGrid lobe_grid(const Brdf& brdf, const Vec3& wo) {
-    std::vector<double> grid(size_t(grid_x) * grid_phi);
+    std::vector<double> grid(size_t(grid_x) * grid_phi), values(grid_x), least_solid_angle(grid_x, infinity);
     double total = 0;
     for (int i = 0; i < grid_x; ++i)
         for (int j = 0; j < grid_phi; ++j) {
@@ -57,15 +61,20 @@ LobeGrid lobe_grid(const Brdf& brdf, const Vec3& wo) {
             if (oh <= 0) continue;
             const Vec3 wi = 2 * oh * h - wo;
             if (wi.z <= 0) continue;
-            const double value = mean(evaluate(brdf, wi, wo)) * wi.z * solid_angle_density(x, oh);
+            const double reflected = mean(evaluate(brdf, wi, wo)) * wi.z, value = reflected * solid_angle_density(x, oh);
             grid[size_t(i) * grid_phi + size_t(j)] = value;
             total += value;
+            values[size_t(i)] = std::max(values[size_t(i)], reflected);
+            least_solid_angle[size_t(i)] = std::min(least_solid_angle[size_t(i)], solid_angle_density(double(i) / grid_x, oh));
         }
     // A black lobe is sampled evenly: its samples carry nothing, but they must exist.
     constexpr double defensive = LobeTable::defensive_part;
     const double even = total > 0 ? total * defensive / (1 - defensive) : 1.0;
     for (double& value : grid) value += even / double(grid.size());
-    return {std::move(grid), total * (1.0 / grid_x) * (2 * pi / grid_phi)};
+    const double albedo = total * (1.0 / grid_x) * (2 * pi / grid_phi);
+    for (size_t i = 0; i < values.size(); ++i)
+        values[i] = (albedo > 0 ? (1 - defensive) * values[i] / albedo : 0) + defensive / (2 * pi) / least_solid_angle[i];
+    return {std::move(grid), std::move(values), albedo};
 }
 
 LobeSample sample_table(const LobeTable& table, const Vec3& wo, const Vec2& u) {
@@ -97,6 +106,17 @@ int step_holding(const LobeTable::Step* steps, int count, double value) {
     int k = 0;
     while (k + 1 < count && value >= double(steps[k + 1].start)) ++k;
     return k;
+}
+
+// LobeTable::denser of one view, whose steps of x are known.
+void find_denser(const std::vector<double>& most_dense, const LobeTable::Step* xs, float* denser) {
+    for (size_t i = 0; i < most_dense.size(); ++i) {
+        const double end = double(i + 1) / grid_x;
+        const int k = step_holding(xs, LobeTable::radial, end);
+        const double drawn = std::min((k + (end - xs[k].start) / xs[k].width) / LobeTable::radial, 1.0);
+        for (int octave = 0; octave < LobeTable::octaves; ++octave)
+            if (most_dense[i] > std::ldexp(1.0, LobeTable::first_octave + octave)) denser[octave] = float(drawn);
+    }
 }
 
 double pdf_table(const LobeTable& table, const Vec3& wi, const Vec3& wo) {
@@ -144,15 +164,17 @@ LobeTable lobe_table(const Brdf& brdf) {
     LobeTable table;
     table.x.resize(size_t(LobeTable::views) * LobeTable::radial);
     table.phi.resize(table.x.size() * LobeTable::azimuthal);
+    table.denser.resize(size_t(LobeTable::views) * LobeTable::octaves);
     for (int view = 0; view < LobeTable::views; ++view) {
         const double theta = (view + 0.5) / LobeTable::views * pi / 2;
-        const auto [grid, albedo] = lobe_grid(brdf, Vec3(std::sin(theta), 0, std::cos(theta)));
+        const auto [grid, most_dense, albedo] = lobe_grid(brdf, Vec3(std::sin(theta), 0, std::cos(theta)));
         table.albedo.push_back(float(albedo));
         std::vector<double> rows(grid_x);
         for (int i = 0; i < grid_x; ++i)
             for (int j = 0; j < grid_phi; ++j) rows[size_t(i)] += grid[size_t(i) * grid_phi + size_t(j)];
         LobeTable::Step* xs = &table.x[size_t(view) * LobeTable::radial];
         invert(rows, 1.0, LobeTable::radial, xs);
+        find_denser(most_dense, xs, &table.denser[size_t(view) * LobeTable::octaves]);
         for (int k = 0; k < LobeTable::radial; ++k) {
             // The azimuth's density over the whole step: rows in proportion to their overlap with it.
             std::vector<double> column(grid_phi);

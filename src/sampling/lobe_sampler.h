@@ -24,6 +24,10 @@ struct LobeTable {
     std::vector<Step> phi;  // views * radial * azimuthal
     // Per view: the integral of mean(f) cos(theta_i) that the density is proportional to, but for its defensive part.
     std::vector<float> albedo;
+    // Per view and octave of density: the part of its samples, by their first coordinate, beyond which none is drawn more densely than
+    // 2^(first_octave + octave) per steradian, but for the rounding of the grid.
+    static constexpr int octaves = 32, first_octave = -16;
+    std::vector<float> denser;
 
     // The part of all samples that is spread evenly over (x, phi), so that no direction has density 0 and no weight is
     // unbounded (Hesterberg 1995, defensive mixture).

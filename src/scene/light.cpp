@@ -65,7 +65,7 @@ const LightAbove& Light::above(Lookup lookup) const {
         LightAbove above;
         std::vector<float> trunk;
         for (uint32_t i = 0; i < LightTree::trunk_parts; ++i) {
-            const LightPart& part = tree.parts[size_t(i) * LightTree::heap + 1];
+            const LightPart& part = tree.parts[LightTree::index(i, 1)];
             trunk.insert(trunk.end(), {part.direction[0], part.direction[1], part.direction[2], part.sine});
             const LightPart::Flux& flux = part.flux[0];
             trunk.insert(trunk.end(), {flux.rgb[0], flux.rgb[1], flux.rgb[2], flux.spread});

@@ -38,6 +38,8 @@ void Material::upload_table(const BrdfTable& table) {
     lobe_phi_texture_ = gl::Texture::of_buffer(gl, GL_RG32F, lobe_phi_);
     lobe_albedo_ = gl::Buffer(gl, lobes.albedo.size() * sizeof(float), lobes.albedo.data());
     lobe_albedo_texture_ = gl::Texture::of_buffer(gl, GL_R32F, lobe_albedo_);
+    lobe_denser_ = gl::Buffer(gl, lobes.denser.size() * sizeof(float), lobes.denser.data());
+    lobe_denser_texture_ = gl::Texture::of_buffer(gl, GL_R32F, lobe_denser_);
     device_->check("uploading a BRDF");
 }
 
@@ -46,7 +48,8 @@ std::string Material::definitions(Lookup lookup) const {
     if (std::holds_alternative<Lambert>(brdf_)) return "LOBE_LAMBERT\n" + views;
     if (std::holds_alternative<Ggx>(brdf_)) return "LOBE_GGX\n" + views;
     return text("LOBE_TABLE\n", views, "\nLOBE_RADIAL ", LobeTable::radial, "\nLOBE_AZIMUTHAL ", LobeTable::azimuthal,
-                "\nLOBE_DEFENSIVE ", LobeTable::defensive_part, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
+                "\nLOBE_DEFENSIVE ", LobeTable::defensive_part, "\nLOBE_OCTAVES ", LobeTable::octaves, "\nLOBE_FIRST_OCTAVE ",
+                LobeTable::first_octave, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
 }
 
 void Material::bind(const gl::Program& program) const {
@@ -60,6 +63,7 @@ void Material::bind(const gl::Program& program) const {
         device_->gl().BindTextureUnit(2, cells_texture_.name());
         device_->gl().BindTextureUnit(3, lobe_x_texture_.name());
         device_->gl().BindTextureUnit(4, lobe_phi_texture_.name());
+        device_->gl().BindTextureUnit(8, lobe_denser_texture_.name());
         device_->gl().BindTextureUnit(9, lobe_albedo_texture_.name());
     }
 }

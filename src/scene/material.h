@@ -27,7 +27,9 @@ public:
 
     const LobeBandwidth& bandwidth(BandRule rule) const;
     const std::vector<Pilot>& pilots(BandRule rule, uint32_t count) const;
-    size_t device_bytes() const { return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes() + importance_.bytes(); }
+    size_t device_bytes() const {
+        return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes() + lobe_denser_.bytes() + importance_.bytes();
+    }
 
 private:
     void upload_table(const BrdfTable& table);
@@ -36,8 +38,8 @@ private:
     const Brdf brdf_;
     const LobeSampler sampler_;
     float table_scale_ = 1;
-    gl::Buffer cells_, lobe_x_, lobe_phi_, lobe_albedo_;
-    gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_, lobe_albedo_texture_;
+    gl::Buffer cells_, lobe_x_, lobe_phi_, lobe_albedo_, lobe_denser_;
+    gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_, lobe_albedo_texture_, lobe_denser_texture_;
     mutable gl::Buffer importance_;
     mutable gl::Texture importance_texture_;
     mutable std::map<BandRule, LobeBandwidth> bandwidths_;

@@ -205,7 +205,7 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
         Audit audit;
         for (uint32_t i = 0; i < 20000; i += 8) {  // witnesses, which are shaded
             const double a = doubt * normal(random), b = doubt * normal(random);
-            audit.pixels.push_back({i, float(2 + factor * wrong + 0.5 * (a + b)), float(0.5 * (a - b)), 0, false});
+            audit.pixels.push_back({i, float(2 + factor * wrong + 0.5 * (a + b)), float(0.5 * (a - b)), 0, 0, false});
         }
         const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
         // 2,500 squares of deviations of 0.2: known to a few percent; and none is within three standard errors of 0.
@@ -223,7 +223,7 @@ void an_audit_sees_what_neighbours_share(void**) {
     const double shared = 0.2, scale = 2.22;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
     Audit audit;
-    for (uint32_t i = 0; i < 20000; i += 8) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, false});
+    for (uint32_t i = 0; i < 20000; i += 8) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, 0, false});
     const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-6);
     check_close("error", estimate.error(), shared / scale, 0.02 * shared);
@@ -239,7 +239,7 @@ void an_audit_judges_what_would_be_interpolated(void**) {
     for (uint32_t i = 0; i < 20000; i += 8) {
         pixels.spread[4 * i] = float(spread);
         pixels.spread[4 * i + 1] = pixels.spread[4 * i + 2] = float(wrong);
-        audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : -spread)), 0, 0, false});
+        audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : -spread)), 0, 0, 0, false});
     }
     const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-5);
@@ -251,7 +251,7 @@ void an_audit_judges_what_would_be_interpolated(void**) {
 void an_audit_of_the_same_sampler_knows_its_limits(void**) {
     Audit audit;
     audit.samples = 400;
-    const Audit::Pixel biased = {0, 1, 7, 7, true}, unbiased = {0, 1, 0.0625f, 0.0625f, false};
+    const Audit::Pixel biased = {0, 1, 7, 7, 0, true}, unbiased = {0, 1, 0.0625f, 0.0625f, 0, false};
     assert_true(audit.tells_of(biased, 100) && audit.tells_of(biased, 200) && !audit.tells_of(biased, 300) && !audit.tells_of(biased, 0));
     assert_true(audit.tells_of(unbiased, 1000));
     // 0.3 of the audit's own error, which falls as samples to the power -1.2.
@@ -290,8 +290,8 @@ void a_single_square_is_doubted(void**) {
 
 // A cut whose pixels miss light is told so by what has met it; not by what has not.
 void a_cut_is_refuted_by_light_alone(void**) {
-    const Audit::Pixel cut = {0, 1, 0.01f, 0.01f, true};
-    const auto seen = [](float mean, float deviation) { return Audit::Pixel{0, mean, 0, deviation, false}; };
+    const Audit::Pixel cut = {0, 1, 0.01f, 0.01f, 0, true};
+    const auto seen = [](float mean, float deviation) { return Audit::Pixel{0, mean, 0, deviation, 0, false}; };
     assert_true(Audit::refutes(seen(1.31f, 0.1f), cut) && !Audit::refutes(seen(1.29f, 0.1f), cut));
     assert_false(Audit::refutes(seen(0, 0), cut));
 }
@@ -305,7 +305,7 @@ void what_has_overtaken_its_audit_is_still_counted(void**) {
     for (uint32_t i = 0; i < 400; ++i) {
         const bool wrong = i < 4;
         const uint32_t at = 24 * i + 1;  // shaded
-        audit.pixels.push_back({at, float((wrong ? 1.5 : 1) * pixels.radiance[4 * at]), 0, 0, !wrong});
+        audit.pixels.push_back({at, float((wrong ? 1.5 : 1) * pixels.radiance[4 * at]), 0, 0, 0, !wrong});
     }
     const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
     // Four squares of a ninth among 400, known to their half: the mean square of the frame, not of the four.

@@ -24,7 +24,7 @@ Vec3 direction_of_part(const LightPart& part) { return {part.direction[0], part.
 Vec3 all_flux(const LightTree& tree, const LightTree::Trunk& trunk, uint32_t depth, uint32_t layer) {
     Vec3 sum(0);
     for (uint32_t i = trunk.first; i < trunk.first + trunk.count; ++i)
-        for (uint32_t place = 1u << depth; place < 2u << depth; ++place) sum += flux_of(tree.parts[i * LightTree::heap + place], layer);
+        for (uint32_t place = 1u << depth; place < 2u << depth; ++place) sum += flux_of(tree.parts[LightTree::index(i, place)], layer);
     return sum;
 }
 
@@ -68,14 +68,14 @@ void parts_are_unit_cones_around_their_light(void**) {
     const LightTree tree = light_tree(map, MapSampler(map), Lookup::linear);
     for (uint32_t i = 0; i < LightTree::trunk_parts; ++i)
         for (uint32_t place = 1; place < LightTree::heap; ++place) {
-            const LightPart& part = tree.parts[i * LightTree::heap + place];
+            const LightPart& part = tree.parts[LightTree::index(i, place)];
             if (part.flux[0].spread == 0) continue;
             check_close("length", glm::length(direction_of_part(part)), 1, 1e-6);
             // Ceilings rise, what is above them falls; half of a part is no wider than the part, within float's rounding.
             for (uint32_t layer = 1; layer < Ceilings::count; ++layer)
                 check_at_most("flux", luminance(flux_of(part, layer)), luminance(flux_of(part, layer - 1)));
             if (place == 1) continue;
-            const LightPart& whole = tree.parts[i * LightTree::heap + place / 2];
+            const LightPart& whole = tree.parts[LightTree::index(i, place / 2)];
             check_at_most("spread", part.flux[0].spread, whole.flux[0].spread * (1 + 1e-5));
             const double cosine = glm::dot(direction_of_part(part), direction_of_part(whole));
             if (whole.sine < 1) check_at_most("sine of the way", std::sqrt(std::max(0.0, 1 - cosine * cosine)), whole.sine + 1e-3);
@@ -95,7 +95,7 @@ void a_fine_cut_is_the_integral(void**) {
         double found = 0, expected = 0;
         for (uint32_t i = trunk.first; i < trunk.first + trunk.count; ++i)
             for (uint32_t place = 1u << LightTree::depth; place < LightTree::heap; ++place) {
-                const LightPart& part = tree.parts[i * LightTree::heap + place];
+                const LightPart& part = tree.parts[LightTree::index(i, place)];
                 found += std::max(0.0, glm::dot(direction_of_part(part), normal)) * luminance(flux_of(part, 0));
             }
         constexpr int columns = 512, rows = 256;
@@ -123,7 +123,7 @@ void one_lamp_is_one_place(void**) {
         double all = 0;
         for (uint32_t i = trunk.first; i < trunk.first + trunk.count; ++i)
             for (uint32_t place = 1u << depth; place < 2u << depth; ++place) {
-                const LightPart& part = tree.parts[i * LightTree::heap + place];
+                const LightPart& part = tree.parts[LightTree::index(i, place)];
                 if (luminance(flux_of(part, 0)) == 0) continue;
                 all += luminance(flux_of(part, 0));
                 // A texel is 2.8 degrees wide: no part of it, also of the blocks it is cut into, lies farther than half its diagonal from

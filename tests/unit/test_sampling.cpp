@@ -116,6 +116,44 @@ void table_steps_tile_their_domain(void**) {
     }
 }
 
+// Beyond the part that LobeTable::denser tells, no sample is drawn more densely; and where some are, that part is not empty. Densities
+// are those that shaders weigh samples by: in proportion to f cos(theta_i), and an even part. The table's grid looks into each cell once
+// or more, and a smooth lobe's density changes by less than a quarter from there to the cell's corners.
+void dense_samples_come_first(void**) {
+    constexpr int side = 128;
+    constexpr double grid = 1.25;
+    const Case& one = *cases()[0];
+    const LobeTable& table = one.sampler.table();
+    for (const int view : {0, 8, 40, 60}) {
+        const Vec3 wo = outgoing((view + 0.5) / LobeTable::views * pi / 2);
+        double most = 0;
+        for (int octave = 0; octave < LobeTable::octaves; ++octave) {
+            const double part = double(table.denser[size_t(view * LobeTable::octaves + octave)]);
+            const double density = std::ldexp(1.0, LobeTable::first_octave + octave);
+            assert_true(part >= 0 && part <= 1);
+            for (int y = 0; y < side; ++y)
+                for (int x = 0; x < side; ++x) {
+                    const Vec2 u((x + 0.5) / side, (y + 0.5) / side);
+                    const LobeSample sample = one.sampler.sample(wo, u);
+                    if (!(sample.pdf > 0)) continue;
+                    const Vec3 value = evaluate(one.brdf, sample.wi, wo) * sample.wi.z;
+                    const double theta = std::acos(std::min(sample.half.z, 1.0));
+                    const double angle = solid_angle(wo, std::sqrt(theta / (pi / 2)), std::atan2(sample.half.y, sample.half.x));
+                    const double followed = (value.x + value.y + value.z) / 3 / double(table.albedo[size_t(view)]);
+                    const double even = LobeTable::defensive_part / (2 * pi) / angle;
+                    const double own = (1 - LobeTable::defensive_part) * followed + even;
+                    most = std::max(most, own);
+                    if (u.x > part && own > grid * density)
+                        fail_msg("view %d: density %g beyond the part %g that is denser than %g", view, own, part, density);
+                }
+        }
+        // An octave below the densest sample of all there are some; and nearly all are denser than the lowest octave.
+        const int peak = int(std::floor(std::log2(most))) - LobeTable::first_octave;
+        assert_true(table.denser[size_t(view * LobeTable::octaves + peak - 1)] > 0);
+        assert_true(table.denser[size_t(view) * LobeTable::octaves] > 1 - LobeTable::defensive_part);
+    }
+}
+
 // The half vector's angle is found again from wi to a few 1e-16; a table's density goes with its power -1.5 near the
 // pole.
 void samples_know_their_own_density(void**) {
@@ -441,6 +479,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(densities_integrate_to_one),
         cmocka_unit_test(table_steps_tile_their_domain),
+        cmocka_unit_test(dense_samples_come_first),
         cmocka_unit_test(samples_know_their_own_density),
         cmocka_unit_test(drawn_directions_follow_the_density),
         cmocka_unit_test(samples_reflect_the_albedo),
