@@ -98,7 +98,11 @@ Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uin
     const double factor = !(deserved > 0) ? 0 : part > 0 ? factor_leaving(part, drawn) : had / deserved;
     std::map<std::pair<uint32_t, uint32_t>, double> groups;
     for (const Candidate& pixel : drawn) {
-        const uint32_t bin = bin_of(factor * pixel.deserved, worth_redrawing * uint32_t(pixel.samples), budget);
+        const uint32_t worth = worth_redrawing * uint32_t(pixel.samples);
+        uint32_t bin = bin_of(factor * pixel.deserved, worth, budget);
+        // What stays as it is comes last in the list, apart: lanes beside those that draw anew would wait for them. What has the most
+        // that it may have is counted by its bin.
+        if (part > 0 && budget[bin] < worth && budget[bin] < budget.back()) bin = 0;
         result.bins[pixel.at] = uint8_t(bin);
         ++groups[{bin, uint32_t(pixel.samples)}];
     }

@@ -180,3 +180,27 @@ def test_extremes_have_an_error_too(context, size, map_name, material, asked):
     assert np.isfinite(frame.error).all() and np.isfinite(frame.stats.error)
     if material == "black":
         assert frame.stats.error == 0 and not frame.color[..., :3].any()
+
+
+def test_every_pixel_is_held_against_itself(context):
+    """Pixels of two materials, a bright and a dark one, are shaded in another order than they are looked at."""
+    scene = context.scene()
+    scene.environment = context.environment(light(directions()))
+    for x, material in ((-0.45, "matte-fabric"), (0.45, "rough-gold")):
+        matrix = np.eye(4)
+        matrix[0, 3] = x
+        scene.add(context.builtin_mesh("sphere", 64), context.builtin_brdf(material), matrix)
+    scene.camera(eye=(0, 0.2, 2.5), target=(0, 0, 0), fov_y=0.7)
+
+    def rendered(**settings):
+        frame = context.frame(*SIZE, **settings)
+        frame.render(scene)
+        return frame
+
+    references = [luminance(rendered(samples=8192, seed=seed, coarsest_level=0, sampler="combined")) for seed in (93, 94)]
+    frame = rendered(target_error=0.03)
+    assert frame.stats.audited_pixels > 100
+    # As of one material alone; were one pixel held against another's, the estimate could not fall below their difference.
+    assert true_error(frame, *references) < 1.5 * 0.03
+    assert frame.stats.error <= 0.03
+    assert frame.stats.samples < 256 * frame.stats.covered_pixels

@@ -349,6 +349,7 @@ void what_varies_most_is_drawn_anew(void**) {
             const double more = budget[next.bins[i]] / 64.0, noise = varies(i) ? 4 : 0.04;
             const bool anew = more >= worth_redrawing;
             assert_true(varies(i) || !anew);
+            assert_true(anew || next.bins[i] == 0);  // listed apart
             before += noise;
             after += anew ? noise * std::pow(more, -stratified_gain) : noise;
             drawn += anew ? budget[next.bins[i]] : 0;
