@@ -90,6 +90,13 @@ void add(inout Sum sum, uint i, vec3 light) {
     if ((i & 1u) != 0u) sum.odd += luminance(light);
 }
 
+// Point i of n of the lattice of the golden ratio under a shift of each pixel's own: even points, a mean without bias.
+vec2 lattice_point(uint i, uint n, float offset, uint turn) {
+    const uint golden_ratio = 2654435769u;  // its fraction in 32 bits
+    const float below_one = 0.99999994;
+    return vec2(min((float(i) + offset) / float(n), below_one), unit(i * golden_ratio + turn));
+}
+
 // Sum over n samples of the lobe; share: of all samples for each of these.
 Sum sample_lobes(Pixel pixel, uint n, float footprints, float share, inout uint state) {
     Sum sum = Sum(vec4(0), 0.0);
@@ -100,19 +107,15 @@ Sum sample_lobes(Pixel pixel, uint n, float footprints, float share, inout uint 
         add(sum, i, share * light_of_sample(pixel, u, footprints, false));
     }
 #else
-    // The lattice of the golden ratio under a shift of each pixel's own: even points, a mean without bias.
-    const uint golden_ratio = 2654435769u;  // its fraction in 32 bits
-    const float below_one = 0.99999994;
     uint turn = next_random(state);
     float offset = unit(next_random(state));
-#define LATTICE_POINT vec2(min((float(i) + offset) / float(n), below_one), unit(i * golden_ratio + turn))
 #if defined(FILTERED)
     // Software renderers may run both sides of every branch: what only the densest samples need has a loop of its own
     // (docs/decisions/0011). It runs once at least.
     uint dense = clamp(uint(ceil(part_denser_than(pixel.lobe, density_of_map(footprints)) * float(n))), 1u, n);
-    for (; i < dense; ++i) add(sum, i, share * light_of_sample(pixel, LATTICE_POINT, footprints, false));
+    for (; i < dense; ++i) add(sum, i, share * light_of_sample(pixel, lattice_point(i, n, offset, turn), footprints, false));
 #endif
-    for (; i < n; ++i) add(sum, i, share * light_of_sample(pixel, LATTICE_POINT, footprints, true));
+    for (; i < n; ++i) add(sum, i, share * light_of_sample(pixel, lattice_point(i, n, offset, turn), footprints, true));
 #endif
     return sum;
 }

@@ -27,8 +27,8 @@ constexpr double least_gain = 1.8;
 // clusters it errs by 0.5 to 1 over the square root of its samples: as much, with so many times n^g.
 constexpr double unbiased_share = 5;
 constexpr double expected_error = 0.3, least_probe = 16, most_probe = 512;
-// Part of a frame's time.
-constexpr double part_of_time = 0.06;
+// Part of what there is time for; nothing where it would not do for as many pixels as tell anything.
+constexpr double part_of_light = 0.06, fewest_pixels = 64;
 
 // What pixels err by over what their variances tell, before any audit: as much, give or take half of that
 // (docs/decisions/0010).
@@ -71,7 +71,7 @@ uint32_t Audit::unbiased_samples(double probe) {
     return uint32_t(std::clamp(unbiased_share * std::pow(probe, stratified_gain), fewest, most));
 }
 
-Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, double samples_per_millisecond) {
+Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, double light) {
     const bool cut = settings.sampler() == Sampler::cut, biased = cut || settings.sampler() == Sampler::filtered;
     const double target = settings.target_error();
     const bool planned = settings.method() == Method::adaptive && target > 0;
@@ -84,10 +84,11 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
     }
     if (!cut) samples = unbiased_samples(probe);
     if (settings.time_budget() > 0) {
-        const double affordable = part_of_time * settings.time_budget() * samples_per_millisecond;
+        const double affordable = part_of_light * light;
         if (!(target > 0)) samples = most;
         samples = std::min(samples, affordable / pixels - Pace::pixel_samples);
         pixels = std::min(pixels, affordable / (fewest + Pace::pixel_samples));
+        if (pixels < fewest_pixels) return {};
     }
     samples = std::clamp(samples, fewest, most);
     // Where time is short there is none for a probe.

@@ -38,8 +38,8 @@ struct Audit {
         double part = 0;
         uint32_t samples = 0, probe = 0;
     };
-    // samples_per_millisecond: of the device, for frames that must not take long.
-    static Effort effort(const Settings& settings, double covered_pixels, double samples_per_millisecond);
+    // light: samples that a frame with a time budget has time for, those included that a pixel costs before its first one.
+    static Effort effort(const Settings& settings, double covered_pixels, double light);
     // Samples that an audit draws for each of a pixel's own.
     static constexpr double gain = 4;
     // Where probe and audit disagree most, of a part of the pixels, the audit is repeated by a sampler without bias: light that a cut

@@ -51,7 +51,8 @@ std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<u
 
 void Frame::audit(Job* job, Forecast* forecast) const {
     Result& next = *job->result;
-    const Audit::Effort effort = Audit::effort(settings, forecast->covered, pace_.samples_per_millisecond);
+    const double left = settings.time_budget() - next.plan.total_milliseconds() - pace_.round_milliseconds;
+    const Audit::Effort effort = Audit::effort(settings, forecast->covered, std::max(left, 0.0) * pace_.samples_per_millisecond);
     if (effort.part == 0) return;
     job->material.resize(pixels());
     next.gbuffer.material.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, job->material.size(), job->material.data());

@@ -476,23 +476,26 @@ void who_is_drawn_among_few_is_among_more(void**) {
 // A frame without bias and without an error to keep looks at no pixel; one with a time looks at fewer.
 void an_audit_takes_what_it_may(void**) {
     Settings settings;
-    assert_true(Audit::effort(settings, 30000, 5000).samples == 4 * settings.samples());
+    assert_true(Audit::effort(settings, 30000, 0).samples == 4 * settings.samples());
     settings.set_number("accumulate", 8);
-    assert_true(Audit::effort(settings, 30000, 5000).samples == 32 * settings.samples());
+    assert_true(Audit::effort(settings, 30000, 0).samples == 32 * settings.samples());
     settings.set_number("accumulate", 1);
     settings.set_choice("sampler", "combined");
-    assert_true(Audit::effort(settings, 30000, 5000).part == 0);
+    assert_true(Audit::effort(settings, 30000, 0).part == 0);
     settings.set_number("target_error", 0.02);
-    assert_true(Audit::effort(settings, 30000, 5000).probe > 0 && Audit::effort(settings, 30000, 5000).samples == 0);
+    assert_true(Audit::effort(settings, 30000, 0).probe > 0 && Audit::effort(settings, 30000, 0).samples == 0);
     settings.set_choice("sampler", "cut");
-    const Audit::Effort planned = Audit::effort(settings, 30000, 5000);
+    const Audit::Effort planned = Audit::effort(settings, 30000, 0);
     assert_int_equal(planned.probe, 91);  // (0.3 / 0.02)^(2 / 1.2)
     assert_int_equal(planned.samples, 364);
     settings.set_choice("sampler", "filtered");
-    assert_int_equal(Audit::effort(settings, 30000, 5000).samples, 1125);  // 5 / (0.02 / 0.3)^2
+    assert_int_equal(Audit::effort(settings, 30000, 0).samples, 1125);  // 5 / (0.02 / 0.3)^2
     settings.set_number("time_budget", 50);
-    const Audit::Effort hurried = Audit::effort(settings, 30000, 5000);
-    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + Pace::pixel_samples), 1.2 * 0.06 * 50 * 5000);
+    const Audit::Effort hurried = Audit::effort(settings, 30000, 250000);
+    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + Pace::pixel_samples), 1.2 * 0.06 * 250000);
+    assert_true(hurried.part * 30000 >= 64);
+    // 64 pixels of 64 samples, and 30 before the first, are 6 % of 100,267.
+    assert_true(Audit::effort(settings, 30000, 101000).part > 0 && Audit::effort(settings, 30000, 100000).part == 0);
 }
 
 void a_time_is_shared_between_two_rounds(void**) {
