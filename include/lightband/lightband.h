@@ -317,7 +317,7 @@ typedef struct lb_frame_stats {
     uint64_t capped_pixels;        /* pixels whose samples reached the setting "max_samples"; they may have deserved more */
     uint32_t rounds;               /* of shading: 1 where neither an error nor a time was asked for */
     uint32_t audited_pixels;       /* pixels that were also shaded with more samples, to know how far the others err; 0 where
-                                      the setting "sampler" has no bias */
+                                      the setting "sampler" has no bias or a "time_budget" leaves no time for them */
     double bias_error;             /* part of error that an audit found beyond the other two: what a biased sampler gets wrong
                                       in the same way at every seed, and what replicates and witnesses do not tell; more
                                       samples lessen it */
