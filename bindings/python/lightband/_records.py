@@ -65,7 +65,7 @@ class FrameStats:
     rounds: int
     """Rounds of shading: 1 where neither an error nor a time was asked for."""
     audited_pixels: int
-    """Pixels that were also shaded with more samples, to know how far the others err; 0: the sampler has no bias, or there was no time."""
+    """Pixels that were also shaded with more samples, to know how far the others err; 0: no bias, or no time."""
     bias_error: float
     """The part of error that an audit found beyond the other two: a biased sampler's, and what replicates and witnesses do not tell."""
 
