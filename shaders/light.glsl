@@ -54,23 +54,23 @@ const float footprint_size = 0.5;
 // one or smaller (docs/decisions/0011), and fewer samples are so narrow.
 const float least_texels = 0.25;
 
-// A texel covers 4 reach^3 / side^2 steradians, reach being at most sqrt(3).
-float texels_covered(vec3 direction, float steradians) {
-    float reach = octahedral_reach(direction), side = float(textureSize(footprint_light, 0).x);
+// A texel covers 4 reach^3 / side^2 steradians.
+float texels_covered(float reach, float steradians) {
+    float side = float(textureSize(footprint_light, 0).x);
     return footprint_size * side * side * steradians / (4.0 * reach * reach * reach);
 }
 
 // What is drawn less densely than this is no lookup of the map, wherever it comes from.
 float density_of_map(float footprints) {
-    float side = float(textureSize(footprint_light, 0).x);
-    return footprint_size * side * side / (4.0 * 5.196152 * least_texels * footprints);
+    const float longest_reach = 1.7320508;  // of (1, 1, 1)
+    return texels_covered(longest_reach, 1.0 / (least_texels * footprints));
 }
 
 // The mean over a sample's footprint, of which the whole lobe holds that many, of what a cut leaves it. Of a footprint that is smaller
 // than a texel, the finest texels.
 vec3 light_of_footprint(vec3 direction, vec2 density, float footprints) {
     int layer = light_layer(density);
-    float texels = texels_covered(direction, density.y / footprints) / density.x;
+    float texels = texels_covered(octahedral_reach(direction), density.y / footprints) / density.x;
     vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels));
     return mean.rgb * (light_unit / mean.a);
 }
@@ -78,7 +78,7 @@ vec3 light_of_footprint(vec3 direction, vec2 density, float footprints) {
 // The same, where that may be: the map's own light instead.
 vec3 light_for_lobe(vec3 direction, vec2 density, float footprints) {
     int layer = light_layer(density);
-    if (layer < LIGHT_LAYERS && texels_covered(direction, density.y / footprints) > least_texels * density.x)
+    if (layer < LIGHT_LAYERS && texels_covered(octahedral_reach(direction), density.y / footprints) > least_texels * density.x)
         return light_of_footprint(direction, density, footprints);
     vec4 light = light_from(direction);
     return layer < LIGHT_LAYERS ? light.rgb * part_below(layer, light.a) : light.rgb;

@@ -51,7 +51,7 @@ struct LobeGrid {
 };
 
 LobeGrid lobe_grid(const Brdf& brdf, const Vec3& wo) {
-    std::vector<double> grid(size_t(grid_x) * grid_phi), values(grid_x), least_solid_angle(grid_x, infinity);
+    std::vector<double> grid(size_t(grid_x) * grid_phi), most_reflected(grid_x), least_solid_angle(grid_x, infinity);
     double total = 0;
     for (int i = 0; i < grid_x; ++i)
         for (int j = 0; j < grid_phi; ++j) {
@@ -64,7 +64,7 @@ LobeGrid lobe_grid(const Brdf& brdf, const Vec3& wo) {
             const double reflected = mean(evaluate(brdf, wi, wo)) * wi.z, value = reflected * solid_angle_density(x, oh);
             grid[size_t(i) * grid_phi + size_t(j)] = value;
             total += value;
-            values[size_t(i)] = std::max(values[size_t(i)], reflected);
+            most_reflected[size_t(i)] = std::max(most_reflected[size_t(i)], reflected);
             least_solid_angle[size_t(i)] = std::min(least_solid_angle[size_t(i)], solid_angle_density(double(i) / grid_x, oh));
         }
     // A black lobe is sampled evenly: its samples carry nothing, but they must exist.
@@ -72,9 +72,12 @@ LobeGrid lobe_grid(const Brdf& brdf, const Vec3& wo) {
     const double even = total > 0 ? total * defensive / (1 - defensive) : 1.0;
     for (double& value : grid) value += even / double(grid.size());
     const double albedo = total * (1.0 / grid_x) * (2 * pi / grid_phi);
-    for (size_t i = 0; i < values.size(); ++i)
-        values[i] = (albedo > 0 ? (1 - defensive) * values[i] / albedo : 0) + defensive / (2 * pi) / least_solid_angle[i];
-    return {std::move(grid), std::move(values), albedo};
+    std::vector<double> most_dense(grid_x);
+    for (size_t i = 0; i < most_dense.size(); ++i) {
+        const double followed = albedo > 0 ? (1 - defensive) * most_reflected[i] / albedo : 0;
+        most_dense[i] = followed + (albedo > 0 ? defensive : 1) / (2 * pi) / least_solid_angle[i];
+    }
+    return {std::move(grid), std::move(most_dense), albedo};
 }
 
 LobeSample sample_table(const LobeTable& table, const Vec3& wo, const Vec2& u) {

@@ -127,25 +127,22 @@ void dense_samples_come_first(void**) {
     for (const int view : {0, 8, 40, 60}) {
         const Vec3 wo = outgoing((view + 0.5) / LobeTable::views * pi / 2);
         double most = 0;
-        for (int octave = 0; octave < LobeTable::octaves; ++octave) {
-            const double part = double(table.denser[size_t(view * LobeTable::octaves + octave)]);
-            const double density = std::ldexp(1.0, LobeTable::first_octave + octave);
-            assert_true(part >= 0 && part <= 1);
-            for (int y = 0; y < side; ++y)
-                for (int x = 0; x < side; ++x) {
-                    const Vec2 u((x + 0.5) / side, (y + 0.5) / side);
-                    const LobeSample sample = one.sampler.sample(wo, u);
-                    if (!(sample.pdf > 0)) continue;
-                    const Vec3 value = evaluate(one.brdf, sample.wi, wo) * sample.wi.z;
-                    const double theta = std::acos(std::min(sample.half.z, 1.0));
-                    const double angle = solid_angle(wo, std::sqrt(theta / (pi / 2)), std::atan2(sample.half.y, sample.half.x));
-                    const double followed = (value.x + value.y + value.z) / 3 / double(table.albedo[size_t(view)]);
-                    const double even = LobeTable::defensive_part / (2 * pi) / angle;
-                    const double own = (1 - LobeTable::defensive_part) * followed + even;
-                    most = std::max(most, own);
-                    if (u.x > part && own > grid * density)
-                        fail_msg("view %d: density %g beyond the part %g that is denser than %g", view, own, part, density);
-                }
+        for (int cell = 0; cell < side * side; ++cell) {
+            const Vec2 u((cell % side + 0.5) / side, (cell / side + 0.5) / side);
+            const LobeSample sample = one.sampler.sample(wo, u);
+            if (!(sample.pdf > 0)) continue;
+            const Vec3 value = evaluate(one.brdf, sample.wi, wo) * sample.wi.z;
+            const double theta = std::acos(std::min(sample.half.z, 1.0));
+            const double angle = solid_angle(wo, std::sqrt(theta / (pi / 2)), std::atan2(sample.half.y, sample.half.x));
+            const double followed = (value.x + value.y + value.z) / 3 / double(table.albedo[size_t(view)]);
+            const double own = (1 - LobeTable::defensive_part) * followed + LobeTable::defensive_part / (2 * pi) / angle;
+            most = std::max(most, own);
+            for (int octave = 0; octave < LobeTable::octaves; ++octave) {
+                const double part = double(table.denser[size_t(view * LobeTable::octaves + octave)]);
+                const double density = std::ldexp(1.0, LobeTable::first_octave + octave);
+                if (u.x > part && own > grid * density)
+                    fail_msg("view %d: density %g beyond the part %g that is denser than %g", view, own, part, density);
+            }
         }
         // An octave below the densest sample of all there are some; and nearly all are denser than the lowest octave.
         const int peak = int(std::floor(std::log2(most))) - LobeTable::first_octave;
