@@ -56,7 +56,8 @@ class Stage:
     def scene(self, mesh: str, brdf: str, environment: str) -> lightband.Scene:
         scene = self.context.scene()
         scene.environment = self.environment(environment)
-        scene.add(self.mesh(mesh), self.brdf(brdf))
+        # Nobody sees the inside of a computed shape. Scans have a pixel here and there that shows the back of a fold.
+        scene.add(self.mesh(mesh), self.brdf(brdf), double_sided=MESHES[mesh] is not None)
         scene.camera(**CAMERA)
         return scene
 

@@ -58,12 +58,16 @@ void set_environment(Scene& self, const std::shared_ptr<Environment>& environmen
     self.environment = environment;
 }
 
-uint32_t add(Scene& self, const Mesh& mesh, const Brdf& brdf, const py::object& transform) {
+uint32_t add(Scene& self, const Mesh& mesh, const Brdf& brdf, const py::object& transform, bool double_sided) {
     std::optional<lightband::Transform> matrix;
     if (!transform.is_none()) {
         matrix = to_transform(transform);
     }
-    const uint32_t index = in_library([&] { return self.handle.add(mesh.handle, brdf.handle, matrix); });
+    const uint32_t index = in_library([&] {
+        const uint32_t added = self.handle.add(mesh.handle, brdf.handle, matrix);
+        self.handle.set_double_sided(added, double_sided);
+        return added;
+    });
     self.instances = index + 1;
     return index;
 }
@@ -72,6 +76,11 @@ void set_transform(Scene& self, py::ssize_t index, const py::object& transform) 
     const uint32_t instance = to_uint32(index, "index");
     const lightband::Transform matrix = to_transform(transform);
     in_library([&] { self.handle.set_transform(instance, matrix); });
+}
+
+void set_double_sided(Scene& self, py::ssize_t index, bool double_sided) {
+    const uint32_t instance = to_uint32(index, "index");
+    in_library([&] { self.handle.set_double_sided(instance, double_sided); });
 }
 
 py::str describe_scene(const Scene& self) {
@@ -94,12 +103,17 @@ void bind_scene(py::module_& module) {
 Made by Context.scene. It needs an environment and a camera before it can be rendered; it may have no mesh.)");
     bind_closing(scene);
     scene.def("add", &add, py::arg("mesh"), py::arg("brdf"), py::arg("transform") = py::none(),
+              py::arg("double_sided") = true,
               R"(Adds a mesh with its material; returns the instance's number, counted from 0.
 
 transform: object to world, a 3x4 or 4x4 affine matrix; None: identity.
+double_sided: False: only the front of its triangles is drawn, from which their vertices run counter-clockwise. Of a closed
+surface that is wound outwards and seen from outside nobody sees the back; half of its triangles are then not drawn.
 The array frame.material holds the number plus one. At most 254 instances.)");
     scene.def("set_transform", &set_transform, py::arg("index"), py::arg("transform"),
               "Replaces the transform of an instance.");
+    scene.def("set_double_sided", &set_double_sided, py::arg("index"), py::arg("double_sided"),
+              "Whether both sides of an instance's triangles are drawn, or only the front: see add.");
     scene.def("camera", &set_camera, py::arg("eye"), py::arg("target"), py::arg("up") = py::none(),
               py::arg("fov_y") = py::none(), py::arg("near_plane") = py::none(), py::arg("far_plane") = py::none(),
               R"(Sets the camera.

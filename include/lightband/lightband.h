@@ -198,7 +198,7 @@ typedef struct lb_mesh_desc {
 
 #define LB_MESH_DESC_INIT { sizeof(lb_mesh_desc), 0, NULL, NULL, NULL, NULL, 0 }
 
-/* Triangles, copied. Both sides of a triangle are shaded. Triangles of zero area are dropped (counted by
+/* Triangles, copied. Both sides of a triangle are shaded, but for lb_scene_set_double_sided. Triangles of zero area are dropped (counted by
  * lb_mesh_info); a mesh of nothing else is an error.
  * LB_ERROR_INVALID_ARGUMENT: no vertices or triangles, an index out of range, a vertex that is not finite. */
 LB_API lb_result lb_mesh_create(lb_context context, const lb_mesh_desc* desc, lb_mesh* mesh);
@@ -247,6 +247,11 @@ LB_API lb_result lb_scene_add(lb_scene scene, lb_mesh mesh, lb_brdf brdf, const 
 
 /* Replaces an instance's transform; NULL: identity. */
 LB_API lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const float* transform);
+
+/* Whether both sides of an instance's triangles are drawn (any number but 0, the default) or only the front (0): that from which their
+ * vertices run counter-clockwise, in the mesh's own space. Of a closed surface that is wound outwards and seen from outside nobody
+ * sees the back, and half of the triangles are then not drawn. */
+LB_API lb_result lb_scene_set_double_sided(lb_scene scene, uint32_t index, int32_t double_sided);
 
 /* ---- Frame -------------------------------------------------------------------------------------- */
 

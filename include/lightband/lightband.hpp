@@ -227,6 +227,8 @@ public:
     void set_transform(uint32_t index, const Transform& transform) {
         check(lb_scene_set_transform(get(), index, transform.data()));
     }
+    // False: only the front of its triangles is drawn, from which their vertices run counter-clockwise.
+    void set_double_sided(uint32_t index, bool double_sided) { check(lb_scene_set_double_sided(get(), index, double_sided)); }
 };
 
 // ---- Frame ------------------------------------------------------------------------------------------------------

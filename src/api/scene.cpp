@@ -63,7 +63,8 @@ lb_result create_mesh(lb_context context, lb_mesh* mesh, Make make) {
     return border([&] {
         require(mesh, "mesh");
         const auto owner = contexts().get(context, "context");
-        const Triangles triangles = make();
+        Triangles triangles = make();
+        triangles.order_for_drawing();
         const gl::Device::Guard guard(owner->device);
         give<lb_mesh, const Mesh>(meshes(), std::make_shared<const Mesh>(owner->device, triangles), mesh);
     });
@@ -261,7 +262,7 @@ lb_result lb_scene_set_camera(lb_scene scene, const lb_camera_desc* camera) {
 lb_result lb_scene_add(lb_scene scene, lb_mesh mesh, lb_brdf brdf, const float* transform, uint32_t* index) {
     return border([&] {
         const auto target = scenes().get(scene, "scene");
-        Instance instance{meshes().get(mesh, "mesh"), materials().get(brdf, "brdf"), Transform::from(transform)};
+        Instance instance{meshes().get(mesh, "mesh"), materials().get(brdf, "brdf"), Transform::from(transform), true};
         require_same_device(*target, *instance.mesh, "mesh");
         require_same_device(*target, *instance.material, "brdf");
         const gl::Device::Guard guard(target->device());
@@ -274,7 +275,15 @@ lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const float* tr
     return border([&] {
         const auto target = scenes().get(scene, "scene");
         const gl::Device::Guard guard(target->device());
-        target->set_transform(index, Transform::from(transform));
+        target->instance(index).transform = Transform::from(transform);
+    });
+}
+
+lb_result lb_scene_set_double_sided(lb_scene scene, uint32_t index, int32_t double_sided) {
+    return border([&] {
+        const auto target = scenes().get(scene, "scene");
+        const gl::Device::Guard guard(target->device());
+        target->instance(index).double_sided = double_sided != 0;
     });
 }
 

@@ -30,10 +30,12 @@
     X(PFNGLDELETETEXTURESPROC, DeleteTextures)             \
     X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)     \
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                       \
+    X(PFNGLDISABLEPROC, Disable)                           \
     X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)           \
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                 \
     X(PFNGLENABLEPROC, Enable)                             \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib) \
+    X(PFNGLFRONTFACEPROC, FrontFace)                       \
     X(PFNGLFINISHPROC, Finish)                             \
     X(PFNGLFLUSHPROC, Flush)                               \
     X(PFNGLGETERRORPROC, GetError)                         \

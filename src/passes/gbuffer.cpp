@@ -28,6 +28,7 @@ glm::dmat4 projection(const Camera& camera, uint32_t width, uint32_t height) {
 }
 
 void draw(gl::Device& device, const gl::Program& program, const Instance& instance, uint32_t number, const Camera& camera) {
+    const gl::Functions& gl = device.gl();
     glm::dmat4 to_eye = instance.transform.matrix;
     to_eye[3] -= glm::dvec4(camera.eye, 0);
     const glm::mat4 to_eye_float(to_eye);
@@ -35,12 +36,19 @@ void draw(gl::Device& device, const gl::Program& program, const Instance& instan
     program.set_matrix4("to_eye", glm::value_ptr(to_eye_float));
     program.set_matrix3("normal_matrix", glm::value_ptr(normals));
     program.set("instance", number + 1);
-    device.gl().BindVertexArray(instance.mesh->vertex_array().name());
+    if (instance.double_sided) {
+        gl.Disable(GL_CULL_FACE);
+    } else {
+        gl.Enable(GL_CULL_FACE);  // of back faces
+        // A mirrored instance is wound the other way round; so is the picture, whose row 0 lies at the top.
+        gl.FrontFace(glm::determinant(glm::dmat3(instance.transform.matrix)) > 0 ? GL_CW : GL_CCW);
+    }
+    gl.BindVertexArray(instance.mesh->vertex_array().name());
     const GLsizei all = instance.mesh->index_count(), piece = 3 * ((all / 3 + pieces - 1) / pieces);
     for (GLsizei first = 0; first < all; first += piece) {
         const size_t offset = size_t(first) * sizeof(uint32_t);
-        device.gl().DrawElements(GL_TRIANGLES, std::min(piece, all - first), GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
-        device.gl().Flush();
+        gl.DrawElements(GL_TRIANGLES, std::min(piece, all - first), GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
+        gl.Flush();
     }
 }
 

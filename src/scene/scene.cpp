@@ -33,10 +33,10 @@ uint32_t Scene::add(Instance instance) {
     return uint32_t(instances_.size() - 1);
 }
 
-void Scene::set_transform(uint32_t index, const Transform& transform) {
+Instance& Scene::instance(uint32_t index) {
     if (index >= instances_.size())
         throw Error(LB_ERROR_INVALID_ARGUMENT, text("index is ", index, "; the scene has ", instances_.size(), " instances"));
-    instances_[index].transform = transform;
+    return instances_[index];
 }
 
 Scene::Slots Scene::slots() const {

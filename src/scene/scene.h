@@ -23,6 +23,7 @@ struct Instance {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Material> material;
     Transform transform;
+    bool double_sided = true;  // or only the front of its triangles is drawn
 };
 
 class Scene {
@@ -33,7 +34,7 @@ public:
 
     const gl::DevicePtr& device() const { return device_; }
     uint32_t add(Instance instance);
-    void set_transform(uint32_t index, const Transform& transform);
+    Instance& instance(uint32_t index);  // checked
 
     std::shared_ptr<const Light> light;
     std::optional<Camera> camera;

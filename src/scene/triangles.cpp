@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <meshoptimizer.h>
 
 namespace lightband {
 namespace {
@@ -83,6 +84,19 @@ Triangles Triangles::from(const lb_mesh_desc& desc) {
         compute_normals(&mesh);
     }
     return mesh;
+}
+
+void Triangles::order_for_drawing() {
+    const size_t vertices = vertex_count();
+    meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), vertices);
+    constexpr uint32_t unused = ~0u;
+    std::vector<uint32_t> place(vertices);
+    uint32_t next = uint32_t(meshopt_optimizeVertexFetchRemap(place.data(), indices.data(), indices.size(), vertices));
+    for (uint32_t& to : place)
+        if (to == unused) to = next++;
+    meshopt_remapIndexBuffer(indices.data(), indices.data(), indices.size(), place.data());
+    for (const auto& [values, components] : {std::pair(&positions, 3), std::pair(&normals, 3), std::pair(&texcoords, 2)})
+        if (!values->empty()) meshopt_remapVertexBuffer(values->data(), values->data(), vertices, size_t(components) * sizeof(float), place.data());
 }
 
 void Triangles::bounds(float (&low)[3], float (&high)[3]) const {

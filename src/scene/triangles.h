@@ -25,6 +25,10 @@ struct Triangles {
     // The shapes of lb_mesh_builtin.
     static Triangles shape(const std::string& name, uint32_t resolution);
 
+    // Triangles that share vertices follow each other, and vertices lie as these use them; those that none uses come last. A device then
+    // transforms a vertex once, not for every triangle around it.
+    void order_for_drawing();
+
     void bounds(float (&low)[3], float (&high)[3]) const;
 };
 

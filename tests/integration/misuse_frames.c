@@ -93,6 +93,7 @@ static void transform_must_be_finite_and_invertible(void** state) {
     assert_refused(lb_scene_set_transform(world.scene, 0, flat), LB_ERROR_INVALID_ARGUMENT, "transform");
     assert_refused(lb_scene_set_transform(world.scene, 1, identity), LB_ERROR_INVALID_ARGUMENT, "index", "1");
     assert_refused(lb_scene_set_transform(world.scene, UINT32_MAX, identity), LB_ERROR_INVALID_ARGUMENT, "index");
+    assert_refused(lb_scene_set_double_sided(world.scene, 1, 0), LB_ERROR_INVALID_ARGUMENT, "index", "1");
     assert_int_equal(index, 77);
 }
 

@@ -65,6 +65,7 @@ CALL(lb_scene_set_environment, (handle, world.environment))
 CALL(lb_scene_set_camera, (handle, &camera))
 CALL(lb_scene_add, (handle, world.mesh, world.brdf, NULL, &out.index))
 CALL(lb_scene_set_transform, (handle, 0, identity))
+CALL(lb_scene_set_double_sided, (handle, 0, 1))
 CALL(lb_frame_retain, (handle))
 CALL(lb_frame_set_number, (handle, "accumulate", 1))
 CALL(lb_frame_get_number, (handle, "accumulate", &out.number))
@@ -123,6 +124,7 @@ static const struct call {
     {"lb_scene_set_camera", SCENE, with_lb_scene_set_camera},
     {"lb_scene_add", SCENE, with_lb_scene_add},
     {"lb_scene_set_transform", SCENE, with_lb_scene_set_transform},
+    {"lb_scene_set_double_sided", SCENE, with_lb_scene_set_double_sided},
     {"lb_frame_retain", FRAME, with_lb_frame_retain},
     {"lb_frame_set_number", FRAME, with_lb_frame_set_number},
     {"lb_frame_get_number", FRAME, with_lb_frame_get_number},

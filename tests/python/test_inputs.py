@@ -93,6 +93,41 @@ def test_a_transform_moves_the_mesh(context: lightband.Context, environment: lig
     np.testing.assert_allclose(frame.position[4, 4], (0.25, 0.5, 0), atol=1e-5)
 
 
+def test_only_the_front_of_an_instance(context: lightband.Context, environment: lightband.Environment) -> None:
+    """A plane faces +Z: its back is drawn unless it is left out, mirrored or not; and whatever is closed looks the same."""
+    scene = context.scene()
+    scene.environment = environment
+    front, back = ((0, 0, 2), (0, 0, 0)), ((0, 0, -2), (0, 0, 0))
+    frame = context.frame(16, 16, samples=4)
+
+    def covered(camera: tuple[tuple[int, ...], tuple[int, ...]]) -> int:
+        scene.camera(*camera)
+        frame.render(scene)
+        return frame.stats.covered_pixels
+
+    index = scene.add(context.builtin_mesh("plane"), context.lambert(0.5))
+    both = covered(front)
+    assert both > 0 and covered(back) == both
+    scene.set_double_sided(index, False)
+    assert covered(front) == both and covered(back) == 0
+    for mirrored in (np.diag((-1, 1, 1)), np.diag((1, -1, 1))):
+        scene.set_transform(index, np.hstack([mirrored, np.zeros((3, 1))]))
+        assert covered(front) == both and covered(back) == 0
+    scene.set_transform(index, np.hstack([np.diag((1, 1, -1)), np.zeros((3, 1))]))  # the plane's own front looks away
+    assert covered(front) == 0 and covered(back) == both
+
+    pictures = []
+    for double_sided in (True, False):
+        closed = context.scene()
+        closed.environment = environment
+        closed.camera((1, 1, 2), (0, 0, 0))
+        closed.add(context.builtin_mesh("knot"), context.lambert(0.5), double_sided=double_sided)
+        frame.render(closed)
+        pictures.append((frame.material, frame.normal, frame.color))
+    for seen, expected in zip(*pictures):
+        np.testing.assert_array_equal(seen, expected)
+
+
 def test_one_number_is_grey(context: lightband.Context) -> None:
     up = (0, 0, 1)
     np.testing.assert_array_equal(context.lambert(0.5).evaluate(up, up), context.lambert([0.5] * 3).evaluate(up, up))
@@ -191,6 +226,7 @@ REFUSED: list[tuple[str, type[Exception], str]] = [
     ("scene.add(mesh, context.lambert(1), np.ones((4, 4)))", lightband.InvalidArgument, "transform: the last row"),
     ("scene.set_transform(7, np.eye(4))", lightband.InvalidArgument, "index"),
     ("scene.set_transform(-1, np.eye(4))", lightband.InvalidArgument, "index"),
+    ("scene.set_double_sided(7, False)", lightband.InvalidArgument, "index"),
     ("scene.camera((0, 0, 0), (0, 0, 0))", lightband.InvalidArgument, "eye|target"),
     ("scene.camera((0, 0), (0, 0, 0))", lightband.InvalidArgument, "eye: shape"),
     ("scene.camera((0, 0, 1), (0, 0, np.inf))", lightband.InvalidArgument, "target"),

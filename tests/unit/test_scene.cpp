@@ -3,6 +3,8 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <random>
 
 #include "brdf_testing.h"
 #include "numeric_testing.h"
@@ -339,6 +341,71 @@ void computed_normals_weigh_by_area(void**) {
     for (int c = 0; c < 3; ++c) check_close("normal", double(mesh.normals[size_t(c)]), expected[c], 1e-7);
 }
 
+// What each corner of each triangle shows, triangles in an order that only this gives them; each starts at its least corner.
+std::vector<std::vector<std::vector<float>>> corners_of(const Triangles& mesh) {
+    std::vector<std::vector<std::vector<float>>> triangles;
+    for (size_t t = 0; t < mesh.indices.size() / 3; ++t) {
+        std::vector<std::vector<float>> corners;
+        for (size_t c = 0; c < 3; ++c) {
+            const size_t i = mesh.indices[3 * t + c];
+            corners.push_back({mesh.positions[3 * i], mesh.positions[3 * i + 1], mesh.positions[3 * i + 2], mesh.normals[3 * i],
+                               mesh.normals[3 * i + 1], mesh.normals[3 * i + 2], mesh.texcoords[2 * i], mesh.texcoords[2 * i + 1]});
+        }
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        triangles.push_back(corners);
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+}
+
+// Vertices that a device transforms which remembers the last sixteen.
+size_t transformed(const Triangles& mesh) {
+    std::vector<uint32_t> last;
+    size_t count = 0;
+    for (const uint32_t i : mesh.indices) {
+        if (std::find(last.begin(), last.end(), i) != last.end()) continue;
+        ++count;
+        last.push_back(i);
+        if (last.size() > 16) last.erase(last.begin());
+    }
+    return count;
+}
+
+void order_for_drawing_changes_the_order_alone(void**) {
+    Triangles mesh = Triangles::shape("blob", 64);
+    std::mt19937 random(3);
+    std::vector<size_t> order(mesh.indices.size() / 3);
+    std::iota(order.begin(), order.end(), size_t(0));
+    std::shuffle(order.begin(), order.end(), random);
+    std::vector<uint32_t> shuffled;
+    for (const size_t t : order) shuffled.insert(shuffled.end(), &mesh.indices[3 * t], &mesh.indices[3 * t] + 3);
+    mesh.indices = shuffled;
+    // One vertex that no triangle uses.
+    mesh.positions.insert(mesh.positions.begin(), {7, 8, 9});
+    mesh.normals.insert(mesh.normals.begin(), {0, 0, 1});
+    mesh.texcoords.insert(mesh.texcoords.begin(), {0, 0});
+    for (uint32_t& i : mesh.indices) ++i;
+
+    Triangles ordered = mesh;
+    ordered.order_for_drawing();
+    assert_true(corners_of(ordered) == corners_of(mesh));
+    assert_int_equal(ordered.vertex_count(), mesh.vertex_count());
+    check_close("what no triangle uses comes last", double(ordered.positions[3 * ordered.vertex_count() - 1]), 9, 0);
+    // A triangle mesh has twice as many triangles as vertices: at best half a transformation each, at worst three.
+    const double triangles = double(mesh.indices.size()) / 3;
+    assert_true(double(transformed(mesh)) > 2.5 * triangles);
+    assert_true(double(transformed(ordered)) < 0.8 * triangles);
+    // Vertices are used as they lie.
+    uint32_t next = 0;
+    for (const uint32_t i : ordered.indices) {
+        assert_true(i <= next);
+        next = std::max(next, i + 1);
+    }
+    ordered.texcoords.clear();  // which a mesh may lack
+    ordered.order_for_drawing();
+    assert_int_equal(ordered.indices.size(), mesh.indices.size());
+}
+
 // ---- Cameras -----------------------------------------------------------------------------------------
 
 lb_camera_desc camera_description() {
@@ -523,6 +590,7 @@ int main() {
         cmocka_unit_test(bad_triangles_are_named),
         cmocka_unit_test(empty_triangles_are_dropped_and_normals_computed),
         cmocka_unit_test(computed_normals_weigh_by_area),
+        cmocka_unit_test(order_for_drawing_changes_the_order_alone),
         cmocka_unit_test(cameras_have_defaults_and_right_handed_axes),
         cmocka_unit_test(singular_cameras_are_named),
         cmocka_unit_test(normals_agree_with_facets),
