@@ -2,26 +2,29 @@
 #include "common.glsl"
 #include "covered.glsl"
 #include "decision.glsl"
-#include "parents.glsl"
-#if !defined(SHADE_ALL)
-#include "relative_variance.glsl"
-#endif
 
 layout(binding = 3) uniform usamplerBuffer brdf_of;
-#if !defined(SHADE_ALL)
+#if defined(INTERPOLATE)
+#include "parents.glsl"
+#include "relative_variance.glsl"
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
-layout(binding = 1, r32f) readonly uniform image2D variances;
-layout(binding = 4) uniform sampler2D bandwidth;
 layout(binding = 5) uniform sampler2D prediction;
-#if defined(FURTHER_ROUND)
-layout(binding = 6) uniform usampler2D former_bins;  // of pixels that former rounds shaded, by what they measured
-#endif
 uniform float mean_radiance;  // of the covered pixels, as predicted
 uniform float tolerance;      // by how much, relatively, the pilots may contradict interpolation
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
 uniform uint witnesses;  // how many of 2^32 pixels that may be interpolated are shaded all the same
 uniform uint seed;
+#else
+layout(binding = 1) uniform sampler2D normals;
+layout(binding = 2) uniform usampler2D materials;
+#endif
+#if defined(PREDICTED)
+layout(binding = 1, r32f) readonly uniform image2D variances;
+layout(binding = 4) uniform sampler2D bandwidth;
+#endif
+#if defined(FURTHER_ROUND)
+layout(binding = 6) uniform usampler2D former_bins;  // of pixels that former rounds shaded, by what they measured
 #endif
 layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;
 layout(binding = 3, r32ui) readonly uniform uimage2D sample_counts;  // of former rounds
@@ -36,7 +39,7 @@ void shade(ivec2 at, uint material, int bin, bool former, bool witness) {
     atomicAdd(counts.histogram[(slot * 2u + uint(former)) * BINS + bin], 1u);
 }
 
-#if !defined(SHADE_ALL)
+#if defined(INTERPOLATE)
 
 // Least level and largest variance over the blocks that meet at a lattice point: all that its parents enclose.
 void around(ivec2 at, int level, out int least, out float variance) {
@@ -70,6 +73,10 @@ bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     return abs(between - here) <= tolerance * (here + dark_part * mean_radiance);
 }
 
+#endif
+
+#if defined(PREDICTED)
+
 // Footprints leave little of a variance, the less the larger it is: of a cut, error was least where pixels have alike
 // (docs/decisions/0009).
 #if defined(SAMPLER_CUT)
@@ -99,25 +106,31 @@ void main() {
     uint material = texelFetch(materials, at, 0).r;
     bool former = imageLoad(sample_counts, at).r > 0u;
     if (texelFetch(normals, at, 0).w > 0.0) atomicAdd(counts.bent, 1u);
-#if defined(SHADE_ALL)
-    shade(at, material, SHARE_ONE, former, false);
-#else
-    uint own = imageLoad(levels, at).r;
+    int level = 0, least = 0, bin = SHARE_ONE;
+#if defined(PREDICTED)
     if (texelFetch(bandwidth, at, 0).b >= 0.5) atomicAdd(counts.saturated, 1u);
-    int level = lattice_level(at, coarsest_level);
-    int least;
     float variance;
+#if defined(INTERPOLATE)
+    level = lattice_level(at, coarsest_level);
     around(at, level, least, variance);
-    int bin = share(variance, min(level, int(own)));
+    uint own = imageLoad(levels, at).r;
+#else
+    const uint own = 0u;
+    variance = imageLoad(variances, at).r;
+#endif
+    bin = share(variance, min(level, int(own)));
+#endif
 #if defined(FURTHER_ROUND)
     if (former) bin = int(texelFetch(former_bins, at, 0).r);
 #endif
-    bool chosen = hash((uint(at.y) << 16 | uint(at.x)) ^ hash(seed)) < witnesses;
-    bool interpolate = level < coarsest_level && least > level && (chosen || !former);
+    bool chosen = false, interpolate = false;
+#if defined(INTERPOLATE)
+    chosen = hash((uint(at.y) << 16 | uint(at.x)) ^ hash(seed)) < witnesses;
+    interpolate = level < coarsest_level && least > level && (chosen || !former);
     if (interpolate) interpolate = has_sound_parents(at, level, float(own));
+#endif
     if (interpolate && !chosen)
         imageStore(decisions, at, uvec4(interpolate_it));
     else
         shade(at, material, bin, former, interpolate);
-#endif
 }

@@ -4,7 +4,7 @@
 #include "decision.glsl"
 #include "lobe.glsl"
 #include "light.glsl"
-layout(local_size_x = 64) in;
+layout(local_size_x = SHADE_GROUP) in;
 
 layout(binding = 1) uniform usamplerBuffer entries;
 layout(binding = 5) uniform sampler2D positions;

@@ -11,8 +11,9 @@ constexpr size_t header = 4;  // bent, saturated, two unused: before the histogr
 
 std::string definitions(const Settings& settings, const Prediction* prediction) {
     std::string result = text("BINS ", budget_bins, "\nSHARE_ONE ", share_one, "\nBINS_PER_OCTAVE ", bins_per_octave);
-    if (prediction == nullptr) return result + "\nSHADE_ALL";
-    result += text("\nPYRAMID_LEVELS ", prediction->rows.size());
+    if (prediction == nullptr) return result;
+    result += "\nPREDICTED";
+    if (settings.coarsest_level() > 0) result += text("\nINTERPOLATE\nPYRAMID_LEVELS ", prediction->rows.size());
     if (settings.sampler() == Sampler::cut) result += "\nSAMPLER_CUT";
     if (settings.allocation() == Allocation::constant_variance) result += "\nALLOCATION_CONSTANT_VARIANCE";
     return result;

@@ -11,8 +11,11 @@ namespace {
 // below the watchdogs of graphics drivers.
 constexpr uint64_t dispatch_samples = 1u << 23;
 
+// Pixels of one workgroup: a graphics processor runs 32 lanes at a time; an audit of few pixels still makes use of every core.
+constexpr uint32_t group = 32;
+
 std::string definitions(const Material& material, const Settings& settings) {
-    std::string result = material.definitions(settings.brdf_lookup()) + text("\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples,
+    std::string result = material.definitions(settings.brdf_lookup()) + text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples,
                                                                                "\nWORTH_REDRAWING ", worth_redrawing, "u");
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
     switch (settings.sampler()) {
@@ -93,7 +96,7 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
                 const uint32_t count = std::min(pixels, part.longer[round] - first);
                 program.set("first", part.first + first);
                 program.set("count", count);
-                gl.DispatchCompute((count + 63) / 64, 1, 1);
+                gl.DispatchCompute((count + group - 1) / group, 1, 1);
                 gl.MemoryBarrier(everything);
                 gl.Finish();
                 done += uint64_t(count) * per_pixel;
