@@ -7,8 +7,8 @@ const int part_size = 1 + LIGHT_LAYERS;
 layout(std140, binding = 0) uniform Trunks { vec4 trunk[2 * (TRUNK_PARTS + COARSE_TRUNK_PARTS)]; };
 
 // A part is halved further where, by the lobe at its centre, it alone brings more of what the pixel may expect than so many average
-// parts; among few parts, more than all that is expected.
-const float surprising = 16.0;
+// parts; among few parts, more than a quarter of all that is expected.
+const float surprising = 16.0, surprising_share = 0.25;
 // Near the horizon, by so much sine or its own width, a part's centre says little: half of the part may lie below, and measured tables
 // vary from cell to cell (a cell of a MERL table is a degree or two wide). There it may bring what the lobe's greatest value would.
 const float grazing = 0.03;
@@ -32,7 +32,7 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
             expected += luminance(flux.rgb) * importance;
         }
     }
-    float scale = sum > 0.0 ? size / sum : 0.0, too_much = min(surprising / size, 1.0) * expected;
+    float scale = sum > 0.0 ? size / sum : 0.0, too_much = min(surprising / size, surprising_share) * expected;
     vec3 light = vec3(0);
     // One loop over all parts of both cuts, so that neighbours run equally long. place, depth: of a part in its heap; wanted: the
     // depth of the cut there; start: that of the coarser cut.

@@ -10,8 +10,9 @@ namespace lightband {
 namespace {
 
 // Pixels of an audit: squared errors differ by orders of magnitude from pixel to pixel, and their mean over a few hundred is known to
-// a quarter or so; their ratio to what the spreads tell to a sixth.
-constexpr double least_pixels = 384, part_beyond = 1.0 / 128, most_part = 1.0 / 32;
+// a quarter or so; their ratio to what the spreads tell to a sixth. More of them cost more than they save
+// (docs/decisions/0010).
+constexpr double least_pixels = 288, part_beyond = 1.0 / 192, most_part = 1.0 / 32;
 // Of a small frame this part at most, or nothing would be interpolated.
 constexpr double most_covered = 0.5;
 constexpr double fewest = 64, most = 1 << 16;
