@@ -12,6 +12,8 @@ from matrix_figures import column, geometric_mean
 from tables import write_table
 
 BUDGET_TOLERANCE = 0.2  # relative: a kept time budget
+SAMPLERS_COMPARED = ("combined", "cut")
+LEAST_SAMPLES = 64  # from which on a sample's cost is told apart from a pixel's
 WIDTH = 130  # characters of a line of prose
 LEAST_RATIO = {"reference": 10, "papers adaptive": 10, "Mitsuba": 2}  # that every frame should have
 LOSS = 1 / 1.2  # best fixed setting's time over ours under which a scene counts as lost: more than 20 % slower
@@ -146,6 +148,26 @@ def fixed_section(rivals: list[dict]) -> str:
         for row in lost])
 
 
+def sample_section(fixed: list[dict]) -> str:
+    """What a further sample costs, every pixel shaded: the slope between few and many, over Mitsuba's."""
+    def slopes(method: str) -> dict[tuple, float]:
+        points: dict[tuple, list[tuple[int, float]]] = {}
+        for row in fixed:
+            if row["method"] == method and row["samples"] >= LEAST_SAMPLES:
+                points.setdefault(row_key(row), []).append((row["samples"], row["ms"]))
+        return {scene: (most[1] - least[1]) / (most[0] - least[0])
+                for scene, pair in points.items() if len(pair) > 1 for least, most in [(min(pair), max(pair))]}
+
+    peer = slopes("Mitsuba")
+    rows = []
+    for sampler in SAMPLERS_COMPARED:
+        ours = slopes(f"every pixel, {sampler}")
+        ratios = np.array([ours[scene] / peer[scene] for scene in sorted(ours.keys() & peer.keys())])
+        rows.append((sampler, f"{len(ratios)}", f"{geometric_mean(ratios):.2f}", f"{ratios.min():.2f} to {ratios.max():.2f}",
+                     f"{np.mean(ratios <= 0.4):.0%}"))
+    return table(("sampler", "scenes", "of a sample of Mitsuba's", "range", "at most two fifths"), rows)
+
+
 def size_section(asked: list[dict], budgets: list[dict], rivals: list[dict]) -> str:
     """The scenes that were measured at every size, size by size."""
     sizes = sorted({row["size"] for row in asked})
@@ -210,6 +232,12 @@ The scenes that were measured at every size; geometric means over all targets. *
 
 {sizes_table}
 
+## The cost of a sample
+What one more sample of each pixel costs, between 64 samples and the most that were measured, every pixel shaded. A sample of Mitsuba's
+is one of the map and one of the reflectance; one of *combined* is either, one of *cut* a sample of the lobe or a part of the light.
+
+{samples}
+
 ## Fixed settings
 {fixed}
 
@@ -232,19 +260,21 @@ def write_report(records: list[dict], out: Path) -> None:
 
     head = head_line(records)
     asked, budgets, rivals = figures.asked_rows(records), figures.budget_rows(records), figures.rival_rows(records)
+    fixed = figures.fixed_rows(records)
     for name, columns, rows in (("asked", figures.ASKED, asked), ("budget", figures.BUDGET, budgets),
-                                ("rivals", figures.RIVALS, rivals), ("fixed", figures.FIXED, figures.fixed_rows(records))):
+                                ("rivals", figures.RIVALS, rivals), ("fixed", figures.FIXED, fixed)):
         write_table(out / f"{name}.csv", head, columns, rows)
     base = min(record["size"] for record in records)
     sizes = size_section(asked, budgets, rivals)
-    asked, budgets, rivals = ([row for row in rows if row["size"] == base] for rows in (asked, budgets, rivals))
+    asked, budgets, rivals, fixed = ([row for row in rows if row["size"] == base] for rows in (asked, budgets, rivals, fixed))
     plots.draw_asked(asked, out / "asked.png")
     plots.draw_budget(budgets, out / "budget.png")
     plots.draw_speedups(rivals, out / "rivals.png")
     plots.draw_curves([record for record in records if record["size"] == base], out / "curves.png")
     page = PAGE.format(origin=origin([record for record in records if record["size"] == base], head), folder=out.name,
                        sizes_table=sizes, errors=error_section(asked), budgets=budget_section(budgets),
-                       rivals=rival_section(rivals), pixels=pixel_section(rivals), fixed=fixed_section(rivals))
+                       rivals=rival_section(rivals), pixels=pixel_section(rivals), samples=sample_section(fixed),
+                       fixed=fixed_section(rivals))
     part = (out.parent / "trade.md").with_suffix(".part")
     part.write_text(page)
     os.replace(part, out.parent / "trade.md")

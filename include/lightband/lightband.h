@@ -248,9 +248,10 @@ LB_API lb_result lb_scene_add(lb_scene scene, lb_mesh mesh, lb_brdf brdf, const 
 /* Replaces an instance's transform; NULL: identity. */
 LB_API lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const float* transform);
 
-/* Whether both sides of an instance's triangles are drawn (any number but 0, the default) or only the front (0): that from which their
- * vertices run counter-clockwise, in the mesh's own space. Of a closed surface that is wound outwards and seen from outside nobody
- * sees the back, and half of the triangles are then not drawn. */
+/* double_sided: not 0 (an instance's state when it is added): both sides of its triangles are drawn. 0: only the front, from which their
+ * vertices run counter-clockwise in the mesh's own space; a mirroring transform does not change which side that is. Of a closed surface
+ * that is wound outwards and seen from outside nobody sees the back: the picture stays as it is, and is drawn sooner.
+ * LB_ERROR_INVALID_ARGUMENT: the scene has no instance of that index. */
 LB_API lb_result lb_scene_set_double_sided(lb_scene scene, uint32_t index, int32_t double_sided);
 
 /* ---- Frame -------------------------------------------------------------------------------------- */
