@@ -13,6 +13,7 @@ from tables import write_table
 
 BUDGET_TOLERANCE = 0.2  # relative: a kept time budget
 SAMPLERS_COMPARED = ("combined", "cut")
+TWO_FIFTHS = 0.4  # of a peer's sample: what one should cost at most
 LEAST_SAMPLES = 64  # from which on a sample's cost is told apart from a pixel's
 WIDTH = 130  # characters of a line of prose
 LEAST_RATIO = {"reference": 10, "papers adaptive": 10, "Mitsuba": 2}  # that every frame should have
@@ -63,7 +64,7 @@ def error_section(asked: list[dict]) -> str:
             f"asked is {np.median(ratios):.2f}, the most {ratios.max():.2f} "
             f"({frame_name(worst)}).")
     if len(known) < len(asked):
-        text += f" {len(asked) - len(known)} more have errors that the references cannot tell from 0."
+        text += f" Of {len(asked) - len(known)} more the references cannot tell the error from 0."
     return prose(text) + "\n\n" + table(("asked", "got <= asked", "median got/asked", "most", "got <= 1.5 asked",
                                          "median estimated/got", "range", "median ms"), rows)
 
@@ -164,7 +165,7 @@ def sample_section(fixed: list[dict]) -> str:
         ours = slopes(f"every pixel, {sampler}")
         ratios = np.array([ours[scene] / peer[scene] for scene in sorted(ours.keys() & peer.keys())])
         rows.append((sampler, f"{len(ratios)}", f"{geometric_mean(ratios):.2f}", f"{ratios.min():.2f} to {ratios.max():.2f}",
-                     f"{np.mean(ratios <= 0.4):.0%}"))
+                     f"{np.mean(ratios <= TWO_FIFTHS):.0%}"))
     return table(("sampler", "scenes", "of a sample of Mitsuba's", "range", "at most two fifths"), rows)
 
 
@@ -233,7 +234,7 @@ The scenes that were measured at every size; geometric means over all targets. *
 {sizes_table}
 
 ## The cost of a sample
-What one more sample of each pixel costs, between 64 samples and the most that were measured, every pixel shaded. A sample of Mitsuba's
+What one more sample of each pixel costs, between {least_samples} samples and the most that were measured, every pixel shaded. A sample of Mitsuba's
 is one of the map and one of the reflectance; one of *combined* is either, one of *cut* a sample of the lobe or a part of the light.
 
 {samples}
@@ -273,7 +274,7 @@ def write_report(records: list[dict], out: Path) -> None:
     plots.draw_curves([record for record in records if record["size"] == base], out / "curves.png")
     page = PAGE.format(origin=origin([record for record in records if record["size"] == base], head), folder=out.name,
                        sizes_table=sizes, errors=error_section(asked), budgets=budget_section(budgets),
-                       rivals=rival_section(rivals), pixels=pixel_section(rivals), samples=sample_section(fixed),
+                       rivals=rival_section(rivals), pixels=pixel_section(rivals), samples=sample_section(fixed), least_samples=LEAST_SAMPLES,
                        fixed=fixed_section(rivals))
     part = (out.parent / "trade.md").with_suffix(".part")
     part.write_text(page)

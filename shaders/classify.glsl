@@ -115,6 +115,7 @@ void main() {
     around(at, level, least, variance);
     uint own = imageLoad(levels, at).r;
 #else
+    // Nothing is interpolated from it: its own variance alone counts.
     const uint own = 0u;
     variance = imageLoad(variances, at).r;
 #endif

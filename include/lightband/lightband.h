@@ -198,7 +198,7 @@ typedef struct lb_mesh_desc {
 
 #define LB_MESH_DESC_INIT { sizeof(lb_mesh_desc), 0, NULL, NULL, NULL, NULL, 0 }
 
-/* Triangles, copied. Both sides of a triangle are shaded, but for lb_scene_set_double_sided. Triangles of zero area are dropped (counted by
+/* Triangles, copied. Both sides of a triangle are shaded, unless lb_scene_set_double_sided leaves out the back. Triangles of zero area are dropped (counted by
  * lb_mesh_info); a mesh of nothing else is an error.
  * LB_ERROR_INVALID_ARGUMENT: no vertices or triangles, an index out of range, a vertex that is not finite. */
 LB_API lb_result lb_mesh_create(lb_context context, const lb_mesh_desc* desc, lb_mesh* mesh);
@@ -250,7 +250,8 @@ LB_API lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const fl
 
 /* double_sided: not 0 (an instance's state when it is added): both sides of its triangles are drawn. 0: only the front, from which their
  * vertices run counter-clockwise in the mesh's own space; a mirroring transform does not change which side that is. Of a closed surface
- * that is wound outwards and seen from outside nobody sees the back: the picture stays as it is, and is drawn sooner.
+ * that is wound outwards, seen from outside and not cut by the near plane nobody sees the back: the picture stays as it is, and is drawn
+ * sooner.
  * LB_ERROR_INVALID_ARGUMENT: the scene has no instance of that index. */
 LB_API lb_result lb_scene_set_double_sided(lb_scene scene, uint32_t index, int32_t double_sided);
 

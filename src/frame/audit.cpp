@@ -10,7 +10,7 @@ namespace lightband {
 namespace {
 
 // Pixels of an audit: squared errors differ by orders of magnitude from pixel to pixel, and their mean over a few hundred is known to
-// a quarter or so; their ratio to what the spreads tell to a sixth. More of them cost more than they save
+// a quarter or so; their ratio to what the spreads tell to a tenth or so. More of them cost more than they save
 // (docs/decisions/0010).
 constexpr double least_pixels = 288, part_beyond = 1.0 / 192, most_part = 1.0 / 32;
 // Of a small frame this part at most, or nothing would be interpolated.

@@ -129,7 +129,8 @@ void Frame::decide(Job* job, const Control& control, const Forecast& forecast) c
     job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), job->settings,
                                    std::max(control.witnesses(), job->audited), forecast, control.tolerance(), job->redraw.bins, width_,
                                    job->covered, next.gbuffer, prediction, next.shading);
-    next.plan.finished("classify", prediction != nullptr ? "shade or interpolate" : "every covered pixel is shaded",
+    const bool interpolates = prediction != nullptr && job->settings.coarsest_level() > 0;
+    next.plan.finished("classify", interpolates ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
 }
 

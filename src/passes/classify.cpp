@@ -71,8 +71,8 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
         bind_texture(gl, 5, prediction->prediction);
         program.set("mean_radiance", float(forecast.mean_radiance));
         program.set("tolerance", float(tolerance));
-        if (further) bind_texture(gl, 6, former);
     }
+    if (further) bind_texture(gl, 6, former);
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_image(gl, 3, target.sample_count, GL_R32UI);
     bind_storage(gl, 0, counts);

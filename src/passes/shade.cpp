@@ -11,12 +11,14 @@ namespace {
 // below the watchdogs of graphics drivers.
 constexpr uint64_t dispatch_samples = 1u << 23;
 
-// Pixels of one workgroup: a graphics processor runs 32 lanes at a time; an audit of few pixels still makes use of every core.
+// Pixels of one workgroup: no fewer than most graphics processors run at a time, few enough that an audit of some dozen pixels makes more
+// than one.
 constexpr uint32_t group = 32;
 
 std::string definitions(const Material& material, const Settings& settings) {
-    std::string result = material.definitions(settings.brdf_lookup()) + text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples,
-                                                                               "\nWORTH_REDRAWING ", worth_redrawing, "u");
+    std::string result = material.definitions(settings.brdf_lookup()) +
+                         text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples, "\nWORTH_REDRAWING ",
+                              worth_redrawing, "u");
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
     switch (settings.sampler()) {
         case Sampler::cut:
@@ -91,7 +93,7 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         for (uint32_t round = 0; round < part.longer.size(); ++round) {
             program.set("part", round);
             const uint32_t per_pixel = std::min(part_samples, *std::max_element(list.samples.begin(), list.samples.end()));
-            const uint32_t pixels = uint32_t(std::max<uint64_t>(64, dispatch_samples / per_pixel));
+            const uint32_t pixels = uint32_t(std::max<uint64_t>(group, dispatch_samples / per_pixel));
             for (uint32_t first = 0; first < part.longer[round]; first += pixels) {
                 const uint32_t count = std::min(pixels, part.longer[round] - first);
                 program.set("first", part.first + first);

@@ -34,7 +34,7 @@ public:
 
     const gl::DevicePtr& device() const { return device_; }
     uint32_t add(Instance instance);
-    Instance& instance(uint32_t index);  // checked
+    Instance& instance(uint32_t index);  // throws where there is none
 
     std::shared_ptr<const Light> light;
     std::optional<Camera> camera;

@@ -95,8 +95,10 @@ void Triangles::order_for_drawing() {
     for (uint32_t& to : place)
         if (to == unused) to = next++;
     meshopt_remapIndexBuffer(indices.data(), indices.data(), indices.size(), place.data());
-    for (const auto& [values, components] : {std::pair(&positions, 3), std::pair(&normals, 3), std::pair(&texcoords, 2)})
-        if (!values->empty()) meshopt_remapVertexBuffer(values->data(), values->data(), vertices, size_t(components) * sizeof(float), place.data());
+    for (const auto& [values, components] : {std::pair(&positions, 3), std::pair(&normals, 3), std::pair(&texcoords, 2)}) {
+        const size_t bytes = size_t(components) * sizeof(float);
+        if (!values->empty()) meshopt_remapVertexBuffer(values->data(), values->data(), vertices, bytes, place.data());
+    }
 }
 
 void Triangles::bounds(float (&low)[3], float (&high)[3]) const {

@@ -93,8 +93,13 @@ static void transform_must_be_finite_and_invertible(void** state) {
     assert_refused(lb_scene_set_transform(world.scene, 0, flat), LB_ERROR_INVALID_ARGUMENT, "transform");
     assert_refused(lb_scene_set_transform(world.scene, 1, identity), LB_ERROR_INVALID_ARGUMENT, "index", "1");
     assert_refused(lb_scene_set_transform(world.scene, UINT32_MAX, identity), LB_ERROR_INVALID_ARGUMENT, "index");
-    assert_refused(lb_scene_set_double_sided(world.scene, 1, 0), LB_ERROR_INVALID_ARGUMENT, "index", "1");
     assert_int_equal(index, 77);
+}
+
+static void sides_are_those_of_an_instance(void** state) {
+    (void)state;
+    assert_refused(lb_scene_set_double_sided(world.scene, 1, 0), LB_ERROR_INVALID_ARGUMENT, "index", "1");
+    assert_refused(lb_scene_set_double_sided(world.scene, UINT32_MAX, 0), LB_ERROR_INVALID_ARGUMENT, "index");
 }
 
 static void scene_holds_254_instances(void** state) {
@@ -493,6 +498,7 @@ int main(void) {
         cmocka_unit_test_teardown(camera_field_of_view_has_a_range, world_renders_as_before),
         cmocka_unit_test_teardown(camera_planes_are_in_order, world_renders_as_before),
         cmocka_unit_test_teardown(transform_must_be_finite_and_invertible, world_renders_as_before),
+        cmocka_unit_test_teardown(sides_are_those_of_an_instance, world_renders_as_before),
         cmocka_unit_test_teardown(scene_holds_254_instances, world_renders_as_before),
         cmocka_unit_test_teardown(unfinished_scene_is_not_rendered, world_renders_as_before),
         cmocka_unit_test_teardown(extreme_scenes_have_no_nan, world_renders_as_before),

@@ -75,6 +75,16 @@ def test_the_field_says_where_the_error_is(context, subject):
     assert errors[0] < errors[3]
 
 
+def test_a_frame_without_prediction_keeps_its_promise(context, subject):
+    """Its further rounds know of its pixels what former ones measured, and nothing else."""
+    frame = render(context, subject[0], np.eye(3), method="reference", sampler="combined", target_error=0.02)
+    covered = frame.material > 0
+    assert frame.stats.rounds > 1
+    assert frame.stats.shaded_pixels == covered.sum() == np.count_nonzero(frame.sample_count)
+    assert frame.sample_count[covered].min() >= 16 and len(np.unique(frame.sample_count[covered])) > 1
+    assert frame.stats.error <= 0.02
+
+
 def test_more_is_asked_more_is_drawn(context, subject):
     frames = [render(context, subject[0], np.eye(3), target_error=asked) for asked in (0.1, 0.03, 0.01)]
     assert frames[0].stats.samples < frames[1].stats.samples < frames[2].stats.samples

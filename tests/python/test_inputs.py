@@ -94,7 +94,7 @@ def test_a_transform_moves_the_mesh(context: lightband.Context, environment: lig
 
 
 def test_only_the_front_of_an_instance(context: lightband.Context, environment: lightband.Environment) -> None:
-    """A plane faces +Z: its back is drawn unless it is left out, mirrored or not; and whatever is closed looks the same."""
+    """A plane faces +Z: its back is drawn unless it is left out, mirrored or not; and computed shapes that are closed look the same."""
     scene = context.scene()
     scene.environment = environment
     front, back = ((0, 0, 2), (0, 0, 0)), ((0, 0, -2), (0, 0, 0))
@@ -116,16 +116,17 @@ def test_only_the_front_of_an_instance(context: lightband.Context, environment: 
     scene.set_transform(index, np.hstack([np.diag((1, 1, -1)), np.zeros((3, 1))]))  # the plane's own front looks away
     assert covered(front) == 0 and covered(back) == both
 
-    pictures = []
-    for double_sided in (True, False):
-        closed = context.scene()
-        closed.environment = environment
-        closed.camera((1, 1, 2), (0, 0, 0))
-        closed.add(context.builtin_mesh("knot"), context.lambert(0.5), double_sided=double_sided)
-        frame.render(closed)
-        pictures.append((frame.material, frame.normal, frame.color))
-    for seen, expected in zip(*pictures):
-        np.testing.assert_array_equal(seen, expected)
+    for shape in ("sphere", "torus", "knot", "blob"):
+        pictures = []
+        for double_sided in (True, False):
+            closed = context.scene()
+            closed.environment = environment
+            closed.camera((1, 1, 2), (0, 0, 0))
+            closed.add(context.builtin_mesh(shape, 64), context.lambert(0.5), double_sided=double_sided)
+            frame.render(closed)
+            pictures.append((frame.material, frame.normal, frame.color))
+        for seen, expected in zip(*pictures):
+            np.testing.assert_array_equal(seen, expected)
 
 
 def test_one_number_is_grey(context: lightband.Context) -> None:
