@@ -234,8 +234,9 @@ The scenes that were measured at every size; geometric means over all targets. *
 {sizes_table}
 
 ## The cost of a sample
-What one more sample of each pixel costs, between {least_samples} samples and the most that were measured, every pixel shaded. A sample of Mitsuba's
-is one of the map and one of the reflectance; one of *combined* is either, one of *cut* a sample of the lobe or a part of the light.
+What one more sample of each pixel costs, between {least_samples} samples and the most that were measured, every pixel shaded. A sample
+of Mitsuba's is one of the map and one of the reflectance; one of *combined* is either, one of *cut* a sample of the lobe or a part of
+the light.
 
 {samples}
 
@@ -274,8 +275,8 @@ def write_report(records: list[dict], out: Path) -> None:
     plots.draw_curves([record for record in records if record["size"] == base], out / "curves.png")
     page = PAGE.format(origin=origin([record for record in records if record["size"] == base], head), folder=out.name,
                        sizes_table=sizes, errors=error_section(asked), budgets=budget_section(budgets),
-                       rivals=rival_section(rivals), pixels=pixel_section(rivals), samples=sample_section(fixed), least_samples=LEAST_SAMPLES,
-                       fixed=fixed_section(rivals))
+                       rivals=rival_section(rivals), pixels=pixel_section(rivals), samples=sample_section(fixed),
+                       least_samples=LEAST_SAMPLES, fixed=fixed_section(rivals))
     part = (out.parent / "trade.md").with_suffix(".part")
     part.write_text(page)
     os.replace(part, out.parent / "trade.md")

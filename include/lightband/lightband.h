@@ -198,8 +198,8 @@ typedef struct lb_mesh_desc {
 
 #define LB_MESH_DESC_INIT { sizeof(lb_mesh_desc), 0, NULL, NULL, NULL, NULL, 0 }
 
-/* Triangles, copied. Both sides of a triangle are shaded, unless lb_scene_set_double_sided leaves out the back. Triangles of zero area are dropped (counted by
- * lb_mesh_info); a mesh of nothing else is an error.
+/* Triangles, copied. Both sides of a triangle are shaded, unless lb_scene_set_double_sided leaves out the back. Triangles of zero area
+ * are dropped (counted by lb_mesh_info); a mesh of nothing else is an error.
  * LB_ERROR_INVALID_ARGUMENT: no vertices or triangles, an index out of range, a vertex that is not finite. */
 LB_API lb_result lb_mesh_create(lb_context context, const lb_mesh_desc* desc, lb_mesh* mesh);
 

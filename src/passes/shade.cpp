@@ -27,8 +27,8 @@ std::string definitions(const Material& material, const Settings& settings) {
                            FootprintLight::definitions(FootprintLight::Kind::below_ceilings));
             break;
         case Sampler::combined:
-            result += text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::cluster_count, "\nMAP_WORTH ",
-                           map_sample_worth);
+            result += text("\nSAMPLER_COMBINED\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::cluster_count,
+                           "\nMAP_WORTH ", map_sample_worth);
             break;
         case Sampler::filtered:
             result += "\nFILTERED\n" + FootprintLight::definitions(FootprintLight::Kind::whole);

@@ -96,10 +96,10 @@ def test_equal_seeds_give_equal_frames(context, subject):
 
 
 def test_a_time_is_spent(context, subject):
-    """Not a measurement of speed: a budget of ten times another buys a better frame, from more samples."""
+    """Not a measurement of speed: a budget of forty times another buys a better frame, from more samples, on a busy machine too."""
     for _ in range(2):  # drivers compile until a shader's second use, which may take longer than any budget
         render(context, subject[0], np.eye(3), time_budget=400)
-    frames = [render(context, subject[0], np.eye(3), time_budget=budget) for budget in (40, 400)]
+    frames = [render(context, subject[0], np.eye(3), time_budget=budget) for budget in (40, 1600)]
     assert frames[1].stats.samples > 2 * frames[0].stats.samples
     assert frames[1].stats.error < frames[0].stats.error
 
