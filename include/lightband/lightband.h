@@ -250,8 +250,8 @@ LB_API lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const fl
 
 /* double_sided: not 0 (an instance's state when it is added): both sides of its triangles are drawn. 0: only the front, from which their
  * vertices run counter-clockwise in the mesh's own space; a mirroring transform does not change which side that is. Of a closed surface
- * that is wound outwards, seen from outside and not cut by the near plane nobody sees the back: the picture stays as it is, and is drawn
- * sooner.
+ * that is wound outwards, seen from outside and not cut by the near plane nobody sees the back: the picture stays as it is, but for
+ * pixels whose centre lies on an edge of the silhouette, and is drawn sooner.
  * LB_ERROR_INVALID_ARGUMENT: the scene has no instance of that index. */
 LB_API lb_result lb_scene_set_double_sided(lb_scene scene, uint32_t index, int32_t double_sided);
 

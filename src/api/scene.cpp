@@ -63,8 +63,7 @@ lb_result create_mesh(lb_context context, lb_mesh* mesh, Make make) {
     return border([&] {
         require(mesh, "mesh");
         const auto owner = contexts().get(context, "context");
-        Triangles triangles = make();
-        triangles.order_for_drawing();
+        const Triangles triangles = make();
         const gl::Device::Guard guard(owner->device);
         give<lb_mesh, const Mesh>(meshes(), std::make_shared<const Mesh>(owner->device, triangles), mesh);
     });

@@ -2,8 +2,9 @@
 
 namespace lightband {
 
-Mesh::Mesh(gl::DevicePtr device, const Triangles& triangles)
+Mesh::Mesh(gl::DevicePtr device, Triangles triangles)
     : device_(std::move(device)), index_count_(GLsizei(triangles.indices.size())) {
+    triangles.order_for_drawing();
     const gl::Functions& gl = device_->gl();
     positions_ = gl::Buffer(gl, triangles.positions.size() * sizeof(float), triangles.positions.data());
     normals_ = gl::Buffer(gl, triangles.normals.size() * sizeof(float), triangles.normals.data());

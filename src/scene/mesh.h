@@ -8,7 +8,7 @@ namespace lightband {
 
 class Mesh {
 public:
-    Mesh(gl::DevicePtr device, const Triangles& triangles);
+    Mesh(gl::DevicePtr device, Triangles triangles);
 
     const gl::DevicePtr& device() const { return device_; }
     const gl::VertexArray& vertex_array() const { return vertex_array_; }

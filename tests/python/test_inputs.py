@@ -116,13 +116,14 @@ def test_only_the_front_of_an_instance(context: lightband.Context, environment: 
     scene.set_transform(index, np.hstack([np.diag((1, 1, -1)), np.zeros((3, 1))]))  # the plane's own front looks away
     assert covered(front) == 0 and covered(back) == both
 
+    # Fine enough that no pixel's centre lies on an edge of the silhouette, where front and back are equally near.
     for shape in ("sphere", "torus", "knot", "blob"):
         pictures = []
         for double_sided in (True, False):
             closed = context.scene()
             closed.environment = environment
             closed.camera((1, 1, 2), (0, 0, 0))
-            closed.add(context.builtin_mesh(shape, 64), context.lambert(0.5), double_sided=double_sided)
+            closed.add(context.builtin_mesh(shape), context.lambert(0.5), double_sided=double_sided)
             frame.render(closed)
             pictures.append((frame.material, frame.normal, frame.color))
         for seen, expected in zip(*pictures):
