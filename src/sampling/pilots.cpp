@@ -16,8 +16,7 @@ std::vector<Pilot> pilots(const Brdf& brdf, const LobeSampler& sampler, const Lo
         const double theta = (view + 0.5) / LobeTable::views * pi / 2;
         const Vec3 wo(std::sin(theta), 0, std::cos(theta));
         for (uint32_t i = 0; i < count; ++i) {
-            // Half a point's spacing off the sequence's origin: no pilot sits on the edge of the square.
-            const Vec2 u = to_unit(sequence_point(i)) + Vec2(0.5 / count);
+            const Vec2 u = centred_lattice_point(i, count);
             Pilot& pilot = result[size_t(view) * count + i];
             const LobeSample sample = sampler.sample(wo, glm::min(u, Vec2(1 - 0x1p-24)));
             pilot = {{float(sample.half.x), float(sample.half.y), float(sample.half.z)}, 0, 0, 0, float(widest), 0};

@@ -322,8 +322,25 @@ double weight_at(const Case& one, const Vec3& wo, const Vec2& u) {
     return sample.pdf > 0 ? luminance(evaluate(one.brdf, sample.wi, wo)) * sample.wi.z / sample.pdf : 0;
 }
 
-// 256 pilots put one into each of 16 x 16 strata. Were each at random in its own, their mean would have the variance
-// sum(variance within a stratum) / 256^2; the sequence stratifies finer than that. Five standard deviations.
+// Multiples k of the golden ratio stay (3 - sqrt(5)) / 2 / k or more away from whole numbers (Hurwitz 1891; least at k = 1), and two
+// points k apart are k / n apart in the other coordinate: so far, at least, that the square is the sum of two squares of known product.
+void lattice_points_keep_their_distance(void**) {
+    for (const uint32_t n : {1u, 2u, 7u, 16u, 100u, 1024u}) {
+        const double least = std::sqrt((3 - std::sqrt(5.0)) / n);
+        for (uint32_t i = 0; i < n; ++i) {
+            const Vec2 here = centred_lattice_point(i, n);
+            assert_true(here.x > 0 && here.x < 1 && here.y >= 0 && here.y < 1);
+            for (uint32_t j = 0; j < i; ++j) {
+                const Vec2 apart = glm::abs(here - centred_lattice_point(j, n));
+                // The ratio's 32 bits are wrong by up to 2^-33, n times.
+                assert_true(glm::length(Vec2(apart.x, std::min(apart.y, 1 - apart.y))) >= least - n * 0x1p-33);
+            }
+        }
+    }
+}
+
+// 256 pilots, one in each of 16 x 16 strata and at random in it, would have a mean of the variance
+// sum(variance within a stratum) / 256^2; a lattice is more even than that. Five standard deviations.
 void pilots_carry_the_albedo(void**) {
     constexpr int strata = 16, fine = 16;
     constexpr uint32_t count = strata * strata;
@@ -482,6 +499,7 @@ int main() {
         cmocka_unit_test(samples_reflect_the_albedo),
         cmocka_unit_test(weights_stay_bounded),
         cmocka_unit_test(aligned_blocks_stratify_every_elementary_interval),
+        cmocka_unit_test(lattice_points_keep_their_distance),
         cmocka_unit_test(pilots_carry_the_albedo),
         cmocka_unit_test(pilots_stand_for_their_solid_angles),
         cmocka_unit_test(clusters_hold_all_points_and_equal_light),
