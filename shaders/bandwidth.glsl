@@ -2,10 +2,9 @@
 // (eq. 6) and the predicted variance of a light sample (eq. 9).
 #include "common.glsl"
 #include "covered.glsl"
+#include "surface.glsl"
 #include "transport.glsl"
 
-layout(binding = 0) uniform sampler2D positions;
-layout(binding = 1) uniform sampler2D normals;
 layout(binding = 2) uniform usampler2D materials;
 layout(binding = 3) uniform sampler2D moments;       // octahedral: means of L, L^2, L nu_a
 layout(binding = 4) uniform samplerBuffer pilots;    // src/sampling/pilots.h: two vec4 each
@@ -31,29 +30,18 @@ const float lobe_share = 2.0, map_variance = 0.1;
 const float lobe_share = 1.0, map_variance = 0.0;
 #endif
 
-struct Surface {
-    vec3 position;  // from the eye
-    vec3 normal;
-    float depth;
-    uint material;
-};
-
-Surface surface_at(ivec2 at) {
-    vec4 p = texelFetch(positions, at, 0);
-    return Surface(p.xyz, texelFetch(normals, at, 0).xyz, p.w, texelFetch(materials, at, 0).r);
-}
-
 // Change of position and normal per pixel along one axis, by the side whose normal changes less (the other may lie beyond
 // a crease); false where neither neighbour belongs to the same instance.
-bool change_along(ivec2 axis, ivec2 at, Surface here, out vec3 dp, out vec3 dn) {
+bool change_along(ivec2 axis, ivec2 at, Surface here, uint material, out vec3 dp, out vec3 dn) {
     bool found = false;
     dp = dn = vec3(0);
     for (int side = -1; side <= 1; side += 2) {
         ivec2 to = at + side * axis;
         if (any(lessThan(to, ivec2(0))) || any(greaterThanEqual(to, textureSize(materials, 0)))) continue;
-        if (texelFetch(materials, to, 0).r != here.material) continue;
-        vec3 p = (texelFetch(positions, to, 0).xyz - here.position) * float(side);
-        vec3 n = (texelFetch(normals, to, 0).xyz - here.normal) * float(side);
+        if (texelFetch(materials, to, 0).r != material) continue;
+        Surface there = surface_at(to);
+        vec3 p = (there.position - here.position) * float(side);
+        vec3 n = (there.normal - here.normal) * float(side);
         if (!found || dot(n, n) * dot(dp, dp) < dot(dn, dn) * dot(p, p)) { dp = p; dn = n; }
         found = true;
     }
@@ -62,9 +50,9 @@ bool change_along(ivec2 axis, ivec2 at, Surface here, out vec3 dp, out vec3 dn) 
 
 // Largest principal curvature in magnitude, 1/metre, from the two fundamental forms; negative where the neighbours do not
 // span the surface.
-float curvature_at(ivec2 at, Surface here) {
+float curvature_at(ivec2 at, Surface here, uint material) {
     vec3 px, py, nx, ny;
-    if (!change_along(ivec2(1, 0), at, here, px, nx) || !change_along(ivec2(0, 1), at, here, py, ny)) return -1.0;
+    if (!change_along(ivec2(1, 0), at, here, material, px, nx) || !change_along(ivec2(0, 1), at, here, material, py, ny)) return -1.0;
     // In units of the pixel's size at this depth, so that no product leaves the range of float in a tiny or huge scene.
     float unit_length = here.depth * radians_per_pixel;
     px /= unit_length;
@@ -83,15 +71,16 @@ void main() {
     ivec2 at;
     if (!covered_pixel(at)) return;
     Surface here = surface_at(at);
+    uint material = texelFetch(materials, at, 0).r;
     float distance_to_eye = length(here.position);
-    vec3 wo_world = -here.position / distance_to_eye;
+    vec3 wo_world = towards_eye(at);
     mat3 frame = local_frame(here.normal, wo_world);
     float cos_outgoing = dot(here.normal, wo_world);
     vec3 wo = vec3(sqrt(max(0.0, 1.0 - cos_outgoing * cos_outgoing)), 0.0, cos_outgoing);
-    float curvature = curvature_at(at, here);
+    float curvature = curvature_at(at, here, material);
 
     int view = min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1);
-    int first = (int(texelFetch(brdf_of, int(here.material)).r) * LOBE_VIEWS + view) * pilot_count;
+    int first = (int(texelFetch(brdf_of, int(material)).r) * LOBE_VIEWS + view) * pilot_count;
     float frequency_limit = nyquist / radians_per_pixel;  // cycles/radian at the eye
     vec2 weighted = vec2(0);
     float weights = 0.0, second = 0.0, printed = 0.0, from_lobe = 0.0;

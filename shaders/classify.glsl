@@ -16,7 +16,7 @@ uniform int coarsest_level;
 uniform uint witnesses;  // how many of 2^32 pixels that may be interpolated are shaded all the same
 uniform uint seed;
 #else
-layout(binding = 1) uniform sampler2D normals;
+#include "surface.glsl"
 layout(binding = 2) uniform usampler2D materials;
 #endif
 #if defined(PREDICTED)
@@ -105,7 +105,7 @@ void main() {
     if (!covered_pixel(at)) return;
     uint material = texelFetch(materials, at, 0).r;
     bool former = imageLoad(sample_counts, at).r > 0u;
-    if (texelFetch(normals, at, 0).w > 0.0) atomicAdd(counts.bent, 1u);
+    if (is_bent(at)) atomicAdd(counts.bent, 1u);
     int level = 0, least = 0, bin = SHARE_ONE;
 #if defined(PREDICTED)
     if (texelFetch(bandwidth, at, 0).b >= 0.5) atomicAdd(counts.saturated, 1u);

@@ -6,11 +6,10 @@ uniform mat3 normal_matrix;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 
-out vec3 from_eye;
 out vec3 shading_normal;
 
 void main() {
-    from_eye = (to_eye * vec4(position, 1.0)).xyz;
+    vec3 from_eye = (to_eye * vec4(position, 1.0)).xyz;
     shading_normal = normal_matrix * normal;
     gl_Position = projection * vec4(from_eye, 1.0);
 }

@@ -2,11 +2,8 @@
 // coordinates are multiples of 2^l; a pixel that is new on lattice l lies midway between two or four parents on
 // lattice l + 1.
 
-layout(binding = 0) uniform sampler2D positions;
-layout(binding = 1) uniform sampler2D normals;
+#include "surface.glsl"
 layout(binding = 2) uniform usampler2D materials;
-uniform vec3 screen_right;  // unit, world: along a row of the picture
-uniform vec3 screen_up;
 
 // The finest lattice's level, 0 .. coarsest, on which a pixel first appears.
 int lattice_level(ivec2 at, int coarsest) {
@@ -36,12 +33,10 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
     ivec2 size = textureSize(materials, 0);
     int step = 1 << level;
     bvec2 odd = notEqual((at >> level) & 1, ivec2(0));
-    vec3 position = texelFetch(positions, at, 0).xyz;
-    vec3 normal = texelFetch(normals, at, 0).xyz;
+    Surface here = surface_at(at);
     uint material = texelFetch(materials, at, 0).r;
-    vec3 wo = -normalize(position);
-    float cosine = max(dot(normal, wo), least_cosine);
-    vec2 axis = vec2(dot(normal, screen_right), -dot(normal, screen_up));
+    float cosine = max(dot(here.normal, towards_eye(at)), least_cosine);
+    vec2 axis = vec2(dot(here.normal, ray_right), dot(here.normal, ray_down));  // the projected normal
     axis = dot(axis, axis) > 0.0 ? normalize(axis) : vec2(0);
 
     Parents result;
@@ -57,8 +52,9 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
         all += 1.0;
         if (any(lessThan(parent, ivec2(0))) || any(greaterThanEqual(parent, size))) continue;
         if (texelFetch(materials, parent, 0).r != material) continue;
-        vec3 chord = texelFetch(positions, parent, 0).xyz - position;
-        float rise = max(abs(dot(chord, normal)), abs(dot(chord, texelFetch(normals, parent, 0).xyz)));
+        Surface there = surface_at(parent);
+        vec3 chord = there.position - here.position;
+        float rise = max(abs(dot(chord, here.normal)), abs(dot(chord, there.normal)));
         float slope = rise * inversesqrt(max(dot(chord, chord), least_squared)) / chord_slope;
         float g_z = exp(-slope * slope);
         // g_a with M = R^T diag(1, 1 / cos^2) R, narrow along the projected normal, less the part that all directions share;

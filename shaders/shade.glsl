@@ -4,11 +4,10 @@
 #include "decision.glsl"
 #include "lobe.glsl"
 #include "light.glsl"
+#include "surface.glsl"
 layout(local_size_x = SHADE_GROUP) in;
 
 layout(binding = 1) uniform usamplerBuffer entries;
-layout(binding = 5) uniform sampler2D positions;
-layout(binding = 6) uniform sampler2D normals;
 layout(binding = 7) uniform usampler2D decisions;
 layout(binding = 0, rgba32f) uniform image2D radiances;      // mean of RGB; mean of squared luminance
 layout(binding = 1, r32ui) uniform uimage2D sample_counts;   // samples that went into them; `unfinished` between two parts
@@ -24,8 +23,7 @@ struct Pixel {
 };
 
 Pixel pixel_at(ivec2 at) {
-    vec3 normal = texelFetch(normals, at, 0).xyz;
-    vec3 wo_world = -normalize(texelFetch(positions, at, 0).xyz);
+    vec3 normal = surface_at(at).normal, wo_world = towards_eye(at);
     float cosine = min(dot(normal, wo_world), 1.0);
     return Pixel(local_frame(normal, wo_world), lobe_towards(vec3(sqrt(1.0 - cosine * cosine), 0.0, cosine)));
 }

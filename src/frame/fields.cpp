@@ -109,19 +109,22 @@ HostArray Frame::field(const std::string& name) const {
         return HostArray::of(LB_TYPE_FLOAT32, picture(4), "radiance", std::move(rgba));
     }
     if (name == "depth") {
-        std::vector<float> depth = alpha_of(read_floats(r.gbuffer.position, GL_RGBA, pixels, 4));
-        for (size_t i = 0; i < pixels; ++i)
-            if (material[i] == 0) depth[i] = std::numeric_limits<float>::infinity();
+        std::vector<float> depth = alpha_of(read_floats(r.gbuffer.surface, GL_RGBA, pixels, 4));
+        for (size_t i = 0; i < pixels; ++i) depth[i] = material[i] != 0 ? std::abs(depth[i]) : std::numeric_limits<float>::infinity();
         return scalar(std::move(depth), "metre");
     }
     if (name == "position") {
-        std::vector<float> position = read_floats(r.gbuffer.position, GL_RGB, pixels, 3);
-        for (size_t i = 0; i < 3 * pixels; ++i)
-            if (material[i / 3] != 0) position[i] = float(position[i] + r.eye[glm::length_t(i % 3)]);
+        const std::vector<float> depth = alpha_of(read_floats(r.gbuffer.surface, GL_RGBA, pixels, 4));
+        std::vector<float> position(3 * pixels);
+        for (size_t i = 0; i < pixels; ++i) {
+            if (material[i] == 0) continue;
+            const Vec3 at = r.eye + double(std::abs(depth[i])) * r.gbuffer.rays.through(double(i % width_), double(i / width_));
+            for (size_t k = 0; k < 3; ++k) position[3 * i + k] = float(at[glm::length_t(k)]);
+        }
         return HostArray::of(LB_TYPE_FLOAT32, picture(3), "metre", std::move(position));
     }
     if (name == "normal")
-        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "", read_floats(r.gbuffer.normal, GL_RGB, pixels, 3));
+        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "", read_floats(r.gbuffer.surface, GL_RGB, pixels, 3));
     if (name == "bandwidth_spatial") return scalar(bandwidth(GL_RED), "1/metre");
     if (name == "bandwidth_angular") return scalar(bandwidth(GL_GREEN), "1/radian");
     if (name == "bandwidth_image") return scalar(bandwidth(GL_BLUE), "1/pixel");

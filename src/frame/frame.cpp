@@ -54,7 +54,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     next.slot_of = slots.of_instance;
     job.report(0);
 
-    passes::gbuffer(*device_, scene, width_, height_, next.gbuffer);
+    passes::gbuffer(*device_, scene, width_, height_, &next.gbuffer);
     next.plan.finished("gbuffer", text(scene.instances().size(), " instances"), next.gbuffer.bytes(), pixels(), "pixels");
     job.covered = passes::covered(gl, next.gbuffer, width_, height_, settings.coarsest_level());
     next.plan.finished("covered", "list of the pixels that see a mesh", job.covered.entries.bytes(), pixels(), "pixels");
@@ -126,7 +126,7 @@ void Frame::decide(Job* job, const Control& control, const Forecast& forecast) c
                            text("least level and largest variance of each block, bandwidth times ", *least, " to ", *most),
                            prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
     }
-    job->counts = passes::classify(*device_, *job->scene.camera, job->slot_of, job->slots.materials.size(), job->settings,
+    job->counts = passes::classify(*device_, job->slot_of, job->slots.materials.size(), job->settings,
                                    std::max(control.witnesses(), job->audited), forecast, control.tolerance(), job->redraw.bins, width_,
                                    job->covered, next.gbuffer, prediction, next.shading);
     const bool interpolates = prediction != nullptr && job->settings.coarsest_level() > 0;
@@ -167,7 +167,7 @@ void Frame::shade(Job* job, const passes::Seeds& seeds) const {
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
                        list.total_samples, "samples");
     if (!next.prediction || job->settings.coarsest_level() == 0) return;
-    passes::upsample(*device_, *job->scene.camera, settings, job->covered, next.gbuffer, *next.prediction, next.shading);
+    passes::upsample(*device_, settings, job->covered, next.gbuffer, *next.prediction, next.shading);
     next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count,
                        "pixels");
 }

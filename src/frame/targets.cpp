@@ -7,8 +7,7 @@ namespace lightband {
 using gl::Texture;
 
 GBuffer::GBuffer(const gl::Functions& gl, uint32_t width, uint32_t height)
-    : position(Texture::image(gl, GL_RGBA32F, width, height)),
-      normal(Texture::image(gl, GL_RGBA32F, width, height)),
+    : surface(Texture::image(gl, GL_RGBA32F, width, height)),
       material(Texture::image(gl, GL_R8UI, width, height)),
       depth(Texture::image(gl, GL_DEPTH_COMPONENT32F, width, height)) {}
 

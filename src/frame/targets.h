@@ -4,18 +4,19 @@
 #include <vector>
 
 #include "gl/objects.h"
+#include "scene/camera.h"
 
 namespace lightband {
 
 // One texel per pixel, rows top-down.
 struct GBuffer {
-    gl::Texture position;  // RGBA32F: metres from the eye, world axes; w: depth
-    gl::Texture normal;    // RGBA32F: unit, towards the eye; w: 1 where it had to be bent
+    gl::Texture surface;   // RGBA32F: unit normal towards the eye; depth, metres, negative where the normal had to be bent
     gl::Texture material;  // R8UI: instance number + 1
     gl::Texture depth;     // for the rasteriser
+    Camera::Rays rays{};   // along which the depths lie
 
     GBuffer(const gl::Functions& gl, uint32_t width, uint32_t height);
-    size_t bytes() const { return position.bytes() + normal.bytes() + material.bytes() + depth.bytes(); }
+    size_t bytes() const { return surface.bytes() + material.bytes() + depth.bytes(); }
 };
 
 // The bandwidth buffer. Pyramids are pictures with each level below the finer one; rows[l] is where level l starts.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/dispatch.h"
+#include "passes/gbuffer.h"
 
 namespace lightband::passes {
 namespace {
@@ -40,7 +41,7 @@ Histogram Counts::fresh_bins() const {
     return sums;
 }
 
-Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_of, size_t slots, const Settings& settings,
+Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Settings& settings,
                 double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
                 uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
@@ -56,11 +57,8 @@ Counts classify(gl::Device& device, const Camera& camera, const SlotTable& slot_
     program.set("coarsest_level", int32_t(settings.coarsest_level()));
     program.set("witnesses", uint32_t(witnesses * 0x1p32));
     program.set("seed", settings.seed());
-    program.set("screen_right", {float(camera.right.x), float(camera.right.y), float(camera.right.z)});
-    program.set("screen_up", {float(camera.up.x), float(camera.up.y), float(camera.up.z)});
     program.use();
-    bind_texture(gl, 0, gbuffer.position);
-    bind_texture(gl, 1, gbuffer.normal);
+    bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 2, gbuffer.material);
     bind_texture(gl, 3, slot_of.texture);
     if (prediction != nullptr) {

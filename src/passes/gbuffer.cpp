@@ -54,26 +54,38 @@ void draw(gl::Device& device, const gl::Program& program, const Instance& instan
 
 }  // namespace
 
-void gbuffer(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& target) {
+void set_rays(const gl::Program& program, const Camera::Rays& rays) {
+    for (const auto& [name, ray] : {std::pair("first_ray", rays.first), {"ray_right", rays.right}, {"ray_down", rays.down}})
+        program.set(name, {float(ray.x), float(ray.y), float(ray.z)});
+}
+
+void bind_surfaces(const gl::Functions& gl, const gl::Program& program, const GBuffer& gbuffer) {
+    set_rays(program, gbuffer.rays);
+    bind_texture(gl, 14, gbuffer.surface);
+}
+
+void gbuffer(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, GBuffer* target) {
     const gl::Functions& gl = device.gl();
     const Camera& camera = *scene.camera;
     const gl::Framebuffer framebuffer(gl);
-    const gl::Texture* colors[] = {&target.position, &target.normal, &target.material};
-    const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
-    for (int i = 0; i < 3; ++i) gl.NamedFramebufferTexture(framebuffer.name(), attachments[i], colors[i]->name(), 0);
-    gl.NamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, target.depth.name(), 0);
-    gl.NamedFramebufferDrawBuffers(framebuffer.name(), 3, attachments);
+    target->rays = camera.rays(width, height);
+    const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    gl.NamedFramebufferTexture(framebuffer.name(), attachments[0], target->surface.name(), 0);
+    gl.NamedFramebufferTexture(framebuffer.name(), attachments[1], target->material.name(), 0);
+    gl.NamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, target->depth.name(), 0);
+    gl.NamedFramebufferDrawBuffers(framebuffer.name(), 2, attachments);
     if (gl.CheckNamedFramebufferStatus(framebuffer.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw Error(LB_ERROR_DEVICE, "geometry pass: the driver cannot draw into the G-buffer's formats");
 
     const float zero[4] = {0, 0, 0, 0};
-    for (const gl::Texture* color : {colors[0], colors[1]}) gl.ClearTexImage(color->name(), 0, GL_RGBA, GL_FLOAT, zero);
-    gl.ClearTexImage(target.material.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+    gl.ClearTexImage(target->surface.name(), 0, GL_RGBA, GL_FLOAT, zero);
+    gl.ClearTexImage(target->material.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
     gl.ClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, zero);
 
     const gl::Program& program = device.graphics("gbuffer");
     const glm::mat4 clip(projection(camera, width, height));
     program.set_matrix4("projection", glm::value_ptr(clip));
+    set_rays(program, target->rays);
     program.set("forward", {float(camera.forward.x), float(camera.forward.y), float(camera.forward.z)});
     program.use();
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());

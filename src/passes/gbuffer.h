@@ -1,4 +1,4 @@
-// Section 3, "Render G-buffers": position, normal, depth and instance of what each pixel sees.
+// Section 3, "Render G-buffers": normal, depth and instance of what each pixel sees.
 #pragma once
 
 #include "frame/targets.h"
@@ -6,6 +6,10 @@
 
 namespace lightband::passes {
 
-void gbuffer(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& target);
+void gbuffer(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, GBuffer* target);
+
+// What shaders/surface.glsl and shaders/rays.glsl read.
+void bind_surfaces(const gl::Functions& gl, const gl::Program& program, const GBuffer& gbuffer);
+void set_rays(const gl::Program& program, const Camera::Rays& rays);
 
 }  // namespace lightband::passes

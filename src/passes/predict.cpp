@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "passes/dispatch.h"
+#include "passes/gbuffer.h"
 
 namespace lightband::passes {
 namespace {
@@ -73,8 +74,7 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
     program.set("radians_per_pixel", float(scene.camera->radians_per_pixel(height)));
     program.set("footprint_level", float(std::log2(double(light.side) * light.side / (4 * pi))));
     program.use();
-    bind_texture(gl, 0, gbuffer.position);
-    bind_texture(gl, 1, gbuffer.normal);
+    bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 2, gbuffer.material);
     bind_texture(gl, 3, light.moments);
     bind_texture(gl, 4, pilots_texture);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/dispatch.h"
+#include "passes/gbuffer.h"
 
 namespace lightband::passes {
 namespace {
@@ -37,10 +38,6 @@ std::string definitions(const Material& material, const Settings& settings) {
     }
     if (settings.environment_lookup() == Lookup::nearest) result += "\nENVIRONMENT_NEAREST";
     return result;
-}
-
-void set_axes(const gl::Program& program, const char* name, const Vec3& v) {
-    program.set(name, {float(v.x), float(v.y), float(v.z)});
 }
 
 // The tables of the sampler, each made when first asked for.
@@ -82,8 +79,7 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         material.bind(program);
         bind_texture(gl, 0, scene.light->texture());
         bind_texture(gl, 1, list.entries_texture);
-        bind_texture(gl, 5, gbuffer.position);
-        bind_texture(gl, 6, gbuffer.normal);
+        bind_surfaces(gl, program, gbuffer);
         bind_texture(gl, 7, target.decision);
         bind_sampler(gl, *scene.light, material, settings, seeds.map_points, program);
         program.use();
@@ -108,15 +104,12 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
     }
 }
 
-void upsample(gl::Device& device, const Camera& camera, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
+void upsample(gl::Device& device, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
               const Prediction& prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Program& program = device.compute("upsample");
-    set_axes(program, "screen_right", camera.right);
-    set_axes(program, "screen_up", camera.up);
     program.use();
-    bind_texture(gl, 0, gbuffer.position);
-    bind_texture(gl, 1, gbuffer.normal);
+    bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 2, gbuffer.material);
     bind_texture(gl, 3, target.decision);
     bind_image(gl, 0, target.radiance, GL_RGBA32F);
@@ -132,12 +125,8 @@ void upsample(gl::Device& device, const Camera& camera, const Settings& settings
 void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
                 const Shading& target) {
     const gl::Functions& gl = device.gl();
-    const Camera& camera = *scene.camera;
-    const double pixel = 2 * camera.plane_height() / height;
     const gl::Program& program = device.compute("background");
-    set_axes(program, "forward", camera.forward);
-    set_axes(program, "right_per_pixel", camera.right * pixel);
-    set_axes(program, "down_per_pixel", -camera.up * pixel);
+    set_rays(program, gbuffer.rays);
     program.use();
     bind_texture(gl, 0, scene.light->texture());
     bind_texture(gl, 1, gbuffer.material);

@@ -18,7 +18,7 @@ struct Seeds {
 void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
            const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn);
 
-void upsample(gl::Device& device, const Camera& camera, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
+void upsample(gl::Device& device, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
               const Prediction& prediction, const Shading& target);
 
 void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,

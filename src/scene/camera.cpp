@@ -49,4 +49,11 @@ Camera Camera::from(const lb_camera_desc& desc) {
     return camera;
 }
 
+Camera::Rays Camera::rays(uint32_t width, uint32_t height) const {
+    const double step = radians_per_pixel(height);  // at depth 1
+    Rays result{forward, right * step, -up * step};
+    result.first += (0.5 - 0.5 * width) * result.right + (0.5 - 0.5 * height) * result.down;
+    return result;
+}
+
 }  // namespace lightband

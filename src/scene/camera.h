@@ -21,6 +21,14 @@ struct Camera {
     // Largest angle between neighbouring pixels' centres (eq. 6's max(f_x / W, f_y / H)): square pixels on a plane, so
     // it is found in the picture's centre, 2 tan(f_y / 2) / H.
     double radians_per_pixel(uint32_t height) const { return 2 * plane_height() / height; }
+
+    // World axes, one unit of depth long.
+    struct Rays {
+        Vec3 first;        // through the centre of the top left pixel
+        Vec3 right, down;  // from a pixel to the next
+        Vec3 through(double x, double y) const { return first + x * right + y * down; }
+    };
+    Rays rays(uint32_t width, uint32_t height) const;
 };
 
 }  // namespace lightband
