@@ -130,6 +130,27 @@ def test_only_the_front_of_an_instance(context: lightband.Context, environment: 
             np.testing.assert_array_equal(seen, expected)
 
 
+@pytest.mark.parametrize("normal", [1.0, -1.0])
+def test_the_side_that_is_seen(context: lightband.Context, environment: lightband.Environment, normal: float) -> None:
+    """Of a square in the plane z = 0 the normal that shows lies towards the eye, wherever that is and whatever the mesh says."""
+    square = np.array([(x, y, 0) for y in (-1, 1) for x in (-1, 1)], np.float32)
+    mesh = context.mesh(square, [(0, 1, 2), (2, 1, 3)], np.tile(np.float32((0, 0, normal)), (4, 1)))
+    scene = context.scene()
+    scene.environment = environment
+    scene.add(mesh, context.lambert(0.5))
+    frame = context.frame(31, 17, samples=4)
+    level = [((x, y, height), (0, 0, 0)) for height in (3, 0.3, 0.03) for x, y in ((0, 0), (1, 0.5), (-2, 1))]
+    upwards = [((-2, 1, 0.3), (0, 0, 0.7)), ((0.9, 0, 0.03), (0, 0, 0.1))]  # the lower rays meet what lies behind the picture's plane
+    for eye, target in level + upwards:
+        for side in (1, -1):
+            mirrored = np.array((1, 1, side))
+            scene.camera(eye * mirrored, target * mirrored, up=(0.1, 1, 0.2), fov_y=1.4)
+            frame.render(scene)
+            seen = frame.material > 0
+            assert seen.any() and frame.stats.bent_normals == 0
+            np.testing.assert_array_equal(frame.normal[seen], np.broadcast_to((0, 0, side), (seen.sum(), 3)))
+
+
 def test_one_number_is_grey(context: lightband.Context) -> None:
     up = (0, 0, 1)
     np.testing.assert_array_equal(context.lambert(0.5).evaluate(up, up), context.lambert([0.5] * 3).evaluate(up, up))
