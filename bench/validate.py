@@ -46,7 +46,8 @@ def validate(stage: Stage, material: str, mesh: str, map_name: str, size: int, s
     covered = first.material > 0
 
     rows, columns, measured = windowed_bandwidth(a, b, covered)
-    bandwidth = agreement(window_means(first.bandwidth_image)[rows, columns], measured)
+    predicted = window_means(first.bandwidth_image)[rows, columns]
+    bandwidth = agreement(predicted, measured)
     box = stage.context.frame(size, size, samples=16, transport="box")
     box.render(scene)
     box_bandwidth = agreement(window_means(box.bandwidth_image)[rows, columns], measured)
@@ -58,10 +59,10 @@ def validate(stage: Stage, material: str, mesh: str, map_name: str, size: int, s
     printed.render(scene)
     eq9 = agreement(printed.variance_predicted[covered], lobe.variance_measured[covered])
 
-    measured_map = np.full(a.shape, np.nan)
-    for row, column, value in zip(rows, columns, measured):
-        measured_map[row - 2:row + 2, column - 2:column + 2] = value
-    predicted_map = np.where(np.isnan(measured_map), np.nan, window_means(first.bandwidth_image))
+    predicted_map, measured_map = np.full(a.shape, np.nan), np.full(a.shape, np.nan)
+    for row, column, ours, theirs in zip(rows, columns, predicted, measured):
+        window = slice(row - 2, row + 2), slice(column - 2, column + 2)
+        predicted_map[window], measured_map[window] = ours, theirs
     blank = np.where(covered, 1.0, np.nan)
     pictures.draw_pairs(
         [pictures.Pair("Image bandwidth", predicted_map, measured_map, "1/pixel"),

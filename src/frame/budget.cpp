@@ -56,8 +56,11 @@ Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Alloc
     const double scale = largest_scale([&](double candidate) {
         return predicted_noise(histogram, budget_at(candidate, least, most), allocation) > noise;
     });
+    // Where the least samples do, bins above those that hold pixels have more all the same: further rounds may need them.
+    uint32_t highest = budget_bins - 1;
+    while (highest > 0 && histogram[highest] == 0) --highest;
     // The next sample up, where the noise is below the goal.
-    return budget_at(scale * (1 + 1e-9), least, most);
+    return budget_at(std::max(scale * (1 + 1e-9), least / share_of(highest)), least, most);
 }
 
 Redrawing redrawing(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, const Budget& budget) {

@@ -104,8 +104,13 @@ void a_budget_reaches_the_noise_asked_with_the_fewest_samples(void**) {
         // A tenth less of every sample misses it: but for the least number that every pixel gets.
         Budget fewer = budget;
         for (uint32_t& samples : fewer) samples = std::max(least_samples, uint32_t(0.9 * samples));
-        if (fewer != budget) assert_true(predicted_noise(histogram, fewer, Allocation::least_error) > noise);
+        if (budget[36] > least_samples) assert_true(predicted_noise(histogram, fewer, Allocation::least_error) > noise);
     }
+    // Where the least samples do, every pixel gets them; bins above all pixels' have more, for rounds that find some of them worse.
+    const Budget least = plan_noise(histogram, 1e9, 1 << 20, Allocation::least_error);
+    for (uint32_t bin = 0; bin <= 36; ++bin) assert_int_equal(least[bin], least_samples);
+    for (uint32_t bin = 36 + bins_per_octave; bin <= 90; ++bin)
+        check_close("samples an octave up", least[bin], 2.0 * least[bin - bins_per_octave], 1.5);  // both rounded
     // What cannot be reached is approached as far as the most samples let.
     for (uint32_t samples : plan_noise(histogram, 0, 128, Allocation::least_error)) assert_true(samples <= 128);
 }
