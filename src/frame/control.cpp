@@ -194,7 +194,7 @@ double Control::time_to_shade(double elapsed) {
 
 bool Control::out_of_time(const RoundCost& cost) {
     // A round of few new pixels says little of others.
-    if (double(cost.pixels) >= telling_part * shaded_) pace_.learn(cost, first_of_two_);
+    if (!cost.made_programs && double(cost.pixels) >= telling_part * shaded_) pace_.learn(cost, first_of_two_);
     if (settings_.time_budget() <= 0) return false;
     const double left = settings_.time_budget() - cost.elapsed_milliseconds - pace_.round_milliseconds;
     return left < std::max(worthwhile_part * settings_.time_budget(), pace_.round_milliseconds);

@@ -24,6 +24,7 @@ struct RoundCost {
     double shading_milliseconds = 0;
     double other_milliseconds = 0;    // lists, interpolation, measurement
     double elapsed_milliseconds = 0;  // since the frame began
+    bool made_programs = false;       // which no later round pays for
 };
 
 // How fast a device shades: learnt from round to round and from frame to frame.

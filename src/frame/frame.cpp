@@ -206,6 +206,7 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
         // How many rounds will come is not known: each takes half of what is left.
         job->part = (1 - job->done) * (one ? 1.0 / settings.accumulate() : 0.5);
         const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
+        const size_t programs = device_->program_count();
         list(job, &control, forecast);
         if (job->drawn.pixels == 0 && next.stats.rounds > 1) {
             --next.stats.rounds;  // nothing is left that would be worth it
@@ -217,6 +218,7 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
         cost.elapsed_milliseconds = next.plan.total_milliseconds();
         cost.shading_milliseconds = next.plan.milliseconds_of({"shade"}) - shaded;
         cost.other_milliseconds = cost.elapsed_milliseconds - begun - cost.shading_milliseconds;
+        cost.made_programs = device_->program_count() > programs;
         job->done += job->part;
     } while (control.again(next.estimate, cost));
     pace_ = control.pace();

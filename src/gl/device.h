@@ -30,6 +30,7 @@ public:
     const Program& compute(const std::string& name, const std::string& definitions = "");
     // A program of shaders/<name>.vert and .frag.
     const Program& graphics(const std::string& name);
+    size_t program_count() const { return programs_.size(); }  // of those made so far
 
     // Throws if OpenGL has recorded an error since the last check.
     void check(const char* where) const;

@@ -531,6 +531,12 @@ void a_time_is_shared_between_two_rounds(void**) {
     check_close("second round, milliseconds", (samples(second) + before_first) / 500, 1000 - cost.elapsed_milliseconds - 12, 4);
     cost.elapsed_milliseconds = 990;
     assert_false(control.again(estimate_of(0.01, 0), cost));
+    // A round that made programs says nothing of those that will find them.
+    const double before = control.pace().samples_per_millisecond;
+    cost.made_programs = true;
+    cost.shading_milliseconds *= 10;
+    control.again(estimate_of(0.01, 0), cost);
+    check_close("pace", control.pace().samples_per_millisecond, before, 0);
 }
 
 }  // namespace
