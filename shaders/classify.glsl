@@ -2,26 +2,32 @@
 #include "common.glsl"
 #include "covered.glsl"
 #include "decision.glsl"
-
-layout(binding = 3) uniform usamplerBuffer brdf_of;
-#if defined(INTERPOLATE)
+#if defined(INTERPOLATE_IMAGE)
 #include "parents.glsl"
-#include "relative_variance.glsl"
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
-layout(binding = 5) uniform sampler2D prediction;
-uniform float mean_radiance;  // of the covered pixels, as predicted
-uniform float tolerance;      // by how much, relatively, the pilots may contradict interpolation
+layout(binding = 1, r32f) readonly uniform image2D variances;
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
-uniform uint witnesses;  // how many of 2^32 pixels that may be interpolated are shaded all the same
-uniform uint seed;
+#elif defined(INTERPOLATE_DIRECTIONS)
+#include "surface.glsl"
+#include "speakers.glsl"
+layout(binding = 2) uniform usampler2D materials;
+layout(binding = 10) uniform usamplerBuffer counts_of_cells;
 #else
 #include "surface.glsl"
 layout(binding = 2) uniform usampler2D materials;
 #endif
+layout(binding = 3) uniform usamplerBuffer brdf_of;
 #if defined(PREDICTED)
-layout(binding = 1, r32f) readonly uniform image2D variances;
+#if !defined(INTERPOLATE_DIRECTIONS)
+#include "pilots_say.glsl"
+#endif
 layout(binding = 4) uniform sampler2D bandwidth;
+layout(binding = 5) uniform sampler2D prediction;
+#endif
+#if defined(INTERPOLATE_IMAGE) || defined(INTERPOLATE_DIRECTIONS)
+#define INTERPOLATE
+#include "witnesses.glsl"
 #endif
 #if defined(FURTHER_ROUND)
 layout(binding = 6) uniform usampler2D former_bins;  // of pixels that former rounds shaded, by what they measured
@@ -39,10 +45,12 @@ void shade(ivec2 at, uint material, int bin, bool former, bool witness) {
     atomicAdd(counts.histogram[(slot * 2u + uint(former)) * BINS + bin], 1u);
 }
 
-#if defined(INTERPOLATE)
+#if defined(INTERPOLATE_IMAGE)
+
+float expected_at(ivec2 at) { return texelFetch(prediction, at, 0).g; }
 
 // Least level and largest variance over the blocks that meet at a lattice point: all that its parents enclose.
-void around(ivec2 at, int level, out int least, out float variance) {
+void around_lattice_point(ivec2 at, int level, out int least, out float variance) {
     ivec2 size = textureSize(materials, 0);
     ivec2 level_size = (size + (1 << level) - 1) >> level;
     ivec2 block = at >> level;
@@ -59,18 +67,17 @@ void around(ivec2 at, int level, out int least, out float variance) {
 }
 
 // Whether the pixel may be interpolated: enough parents evenly around it, none of which (those at the far edges lie outside the
-// blocks around it) needs a finer spacing than theirs; and what the pilots expect here is what lies between their expectations
-// there. Bandwidth knows nothing of contrast: beside a rim that shows a lamp, the slightest remainder of it is too much.
+// blocks around it) needs a finer spacing than theirs.
 bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     Parents parents = parents_of(at, level, pixel_level);
     if (!parents.balanced) return false;
-    float between = 0.0, here = texelFetch(prediction, at, 0).g;
+    float between = 0.0;
     for (int corner = 0; corner < 4; ++corner) {
         if (parents.weight[corner] <= 0.0) continue;
         if (int(imageLoad(levels, parents.at[corner]).r) <= level) return false;
-        between += parents.weight[corner] * texelFetch(prediction, parents.at[corner], 0).g;
+        between += parents.weight[corner] * expected_at(parents.at[corner]);
     }
-    return abs(between - here) <= tolerance * (here + dark_part * mean_radiance);
+    return abs(contradiction(expected_at(at), between)) <= tolerance;
 }
 
 #endif
@@ -86,14 +93,14 @@ const float variance_power = 0.5;
 #endif
 
 // Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
-// sqrt(area * variance), the area being that which the pixel is interpolated over. Constant variance (section 2.4):
+// sqrt(area * variance), the area being the number of pixels for which the pixel stands. Constant variance (section 2.4):
 // N proportional to the variance.
-int share(float variance, int level) {
+int share(float variance, float area) {
     if (variance <= 0.0) return 0;
 #if defined(ALLOCATION_CONSTANT_VARIANCE)
     float octave = log2(variance);
 #else
-    float octave = variance_power * log2(variance) + float(level);
+    float octave = variance_power * log2(variance) + 0.5 * log2(area);
 #endif
     return clamp(int(round(octave * BINS_PER_OCTAVE)) + SHARE_ONE, 0, BINS - 1);
 }
@@ -106,29 +113,34 @@ void main() {
     uint material = texelFetch(materials, at, 0).r;
     bool former = imageLoad(sample_counts, at).r > 0u;
     if (is_bent(at)) atomicAdd(counts.bent, 1u);
-    int level = 0, least = 0, bin = SHARE_ONE;
+    int bin = SHARE_ONE;
+    bool chosen = false, interpolate = false;
 #if defined(PREDICTED)
     if (texelFetch(bandwidth, at, 0).b >= 0.5) atomicAdd(counts.saturated, 1u);
-    float variance;
+    float variance = relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance), area = 1.0;
 #if defined(INTERPOLATE)
-    level = lattice_level(at, coarsest_level);
-    around(at, level, least, variance);
-    uint own = imageLoad(levels, at).r;
-#else
-    // Nothing is interpolated from it: its own variance alone counts.
-    const uint own = 0u;
-    variance = imageLoad(variances, at).r;
+    chosen = is_chosen(at);
 #endif
-    bin = share(variance, min(level, int(own)));
+#if defined(INTERPOLATE_IMAGE)
+    int level = lattice_level(at, coarsest_level), least;
+    around_lattice_point(at, level, least, variance);
+    uint own = imageLoad(levels, at).r;
+    area = exp2(2.0 * float(min(level, int(own))));
+    interpolate = level < coarsest_level && least > level && (chosen || !former);
+    if (interpolate) interpolate = has_sound_parents(at, level, float(own));
+#elif defined(INTERPOLATE_DIRECTIONS)
+    uint word = texelFetch(cells, at, 0).r, slot = texelFetch(brdf_of, int(material)).r;
+    if (level_of(word) != too_fine) {
+        if (speaks(covered_place(), word, slot))
+            area = float(texelFetch(counts_of_cells, cell_index(slot, level_of(word), cell_of(word))).r);
+        else if (chosen || !former)
+            interpolate = abs(contradiction_around(covered_place(), word, slot)) <= tolerance;
+    }
+#endif
+    bin = share(variance, area);
 #endif
 #if defined(FURTHER_ROUND)
     if (former) bin = int(texelFetch(former_bins, at, 0).r);
-#endif
-    bool chosen = false, interpolate = false;
-#if defined(INTERPOLATE)
-    chosen = hash((uint(at.y) << 16 | uint(at.x)) ^ hash(seed)) < witnesses;
-    interpolate = level < coarsest_level && least > level && (chosen || !former);
-    if (interpolate) interpolate = has_sound_parents(at, level, float(own));
 #endif
     if (interpolate && !chosen)
         imageStore(decisions, at, uvec4(interpolate_it));

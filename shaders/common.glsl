@@ -1,6 +1,7 @@
 // What every pass shares: constants, the maps between directions and pictures, random bits.
 
 const float pi = 3.14159265358979;
+const float largest_float = 3.4028234e38;
 
 float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126, 0.7152, 0.0722)); }
 

@@ -2,6 +2,7 @@
 // variance. Both pyramids are pictures with each level below the finer one. The first level comes from the prediction (eq. 11).
 #if defined(FIRST_LEVEL)
 #include "relative_variance.glsl"
+#include "shading_level.glsl"
 #endif
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -19,16 +20,6 @@ uniform ivec2 finer_size;
 uniform int finer_row;  // where the finer level starts
 uniform int row;        // where this level starts
 
-#if defined(FIRST_LEVEL)
-// Nyquist: spacing <= 1 / (2 b), src/bandwidth/transport.h. A saturated bandwidth may be any number above what pixels can
-// show, and no scale makes it small.
-uint shading_level(float b, float scale) {
-    if (b >= 0.5) return 0u;
-    float scaled = scale * b;
-    return scaled > 0.0 ? uint(clamp(floor(log2(0.5 / scaled)), 0.0, float(coarsest_level))) : uint(coarsest_level);
-}
-#endif
-
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
 #if defined(FIRST_LEVEL)
@@ -37,7 +28,7 @@ void main() {
     if (material != 0u) {
         int tiles = (finer_size.x + TILE_SIDE - 1) / TILE_SIDE;
         float scale = texelFetch(scales, at.y / TILE_SIDE * tiles + at.x / TILE_SIDE).r;
-        level = shading_level(texelFetch(bandwidth, at, 0).b, scale);
+        level = shading_level(texelFetch(bandwidth, at, 0).b, scale, coarsest_level);
     }
     imageStore(levels, at, uvec4(level));
     imageStore(variances, at, vec4(relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance)));

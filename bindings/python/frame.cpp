@@ -29,7 +29,14 @@ constexpr Field fields[] = {
     {"bandwidth_spatial", "float32, height x width: cycles/metre at the surface (first component of eq. 5)."},
     {"bandwidth_angular", "float32, height x width: cycles/radian at the eye (second component of eq. 5)."},
     {"bandwidth_image", "float32, height x width: cycles/pixel, at most 0.5 (eq. 6)."},
-    {"level", "uint8, height x width: log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)."},
+    {"bandwidth_reflected",
+     "float32, height x width: cycles/radian of the mirror direction, of the light that the lobe keeps; larger towards grazing angles. "
+     "0 in a frame that did not interpolate over directions."},
+    {"level",
+     "uint8, height x width: log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)."},
+    {"cell_level",
+     "uint8, height x width: log2 of the cells along a side of the square of mirror directions that the pixel asks for; 15 where it asks "
+     "for finer ones than there are. Frames of interpolation \"directions\" alone."},
     {"shaded", "uint8, height x width: 1 where the integral was computed; 0: interpolated, or nothing seen."},
     {"sample_count", "uint32, height x width: light samples drawn."},
     {"error", "float32, height x width: relative error expected here, as the frame estimates it."},

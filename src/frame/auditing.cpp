@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "frame/job.h"
+#include "frame/rehearsal.h"
 #include "passes/gather.h"
 
 namespace lightband {
@@ -36,7 +37,7 @@ std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<u
     passes::shade(*device_, job.scene, job.slots, own, {seed, seed}, list, next.gbuffer, next.shading,
                   [&](uint64_t) { job.report(0); });
     const std::vector<passes::Gathered> shown =
-        passes::gather(*device_, list, next.shading, next.prediction ? &*next.prediction : nullptr);
+        passes::gather(*device_, list, next.gbuffer, next.shading, next.prediction ? &*next.prediction : nullptr);
     std::vector<size_t> next_of(of_slot.size());  // slot by slot, as listed
     for (size_t slot = 1; slot < of_slot.size(); ++slot) next_of[slot] = next_of[slot - 1] + of_slot[slot - 1].size();
     std::vector<Audit::Pixel> seen;
@@ -44,7 +45,8 @@ std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<u
         const passes::Gathered& pixel = shown[next_of[slot_of(at)]++];
         const double mean = luminance(Vec3(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]));
         const double variance = std::max(pixel.square - mean * mean, 0.0) / (samples - 1);
-        seen.push_back({at, float(mean), pixel.spread, float(std::sqrt(variance)), pixel.expected, own.sampler() == Sampler::cut});
+        seen.push_back({at, float(mean), pixel.spread, float(std::sqrt(variance)), pixel.expected, own.sampler() == Sampler::cut,
+                        {pixel.normal[0], pixel.normal[1], pixel.normal[2]}});
     }
     return seen;
 }
@@ -68,6 +70,19 @@ void Frame::audit(Job* job, Forecast* forecast) const {
     if (settings.target_error() <= 0) return;  // nothing is planned from it
     forecast->probe_samples = effort.probe;
     forecast->probed_error = probed_error(*job, probe, *forecast);
+}
+
+// By what the pilots' foresight of interpolation is to be multiplied, squared.
+double Frame::rehearsed(const Job& job, double mean_radiance) const {
+    const Result& next = *job.result;
+    std::vector<RehearsedPixel> pixels;
+    for (const Audit::Pixel& seen : job.audit.pixels) {
+        const Vec3 normal(seen.normal[0], seen.normal[1], seen.normal[2]);
+        const Vec3 wo = -glm::normalize(next.gbuffer.rays.through(double(seen.at % width_), double(seen.at / width_)));
+        pixels.push_back({normal, 2 * glm::dot(normal, wo) * normal - wo, next.slot_of[job.material[seen.at] - 1u], double(seen.mean),
+                          double(seen.expected)});
+    }
+    return rehearse(pixels, dark_part * mean_radiance);
 }
 
 // The mean squared error that a probe's pixels have.
@@ -124,12 +139,14 @@ void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32
     job->result->plan.finished("doubt", text(doubted.size(), " audited pixels without bias"), 0, doubted.size() * samples, "samples");
 }
 
-// Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost.
+// Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost. Of a frame that
+// interpolates over directions most pixels err by interpolation, of which an audit of as many samples tells enough.
 bool Frame::audit_again(Job* job) const {
     const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
-    if (settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0 ||
-        job->audit.knows_better(planned))
-        return false;
+    if (settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0) return false;
+    const bool over_directions =
+        job->settings.coarsest_level() > 0 && job->settings.interpolation() == Interpolation::directions;
+    if (over_directions ? job->audit.samples >= planned : job->audit.knows_better(planned)) return false;
     look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
     job->result->shading.clear(device_->gl());
     return true;

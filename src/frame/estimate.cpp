@@ -122,15 +122,11 @@ double variance_of_mean(const RoundPixels& pixels, size_t at) {
 }
 
 ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots,
-                             const Audit& audit) {
+                             const Audit& audit, const Tiles& tiles) {
     ErrorEstimate result;
     result.slots.resize(slots);
     result.mean_luminance = mean_luminance(pixels);
-    const size_t tiles = tiles_along(pixels.width), rows = pixels.material.size() / pixels.width;
-    result.tiles.resize(tiles * tiles_along(uint32_t(rows)));
-    const auto tile_of = [&](size_t i) -> ErrorEstimate::Tile& {
-        return result.tiles[i / pixels.width / tile_side * tiles + i % pixels.width / tile_side];
-    };
+    result.tiles.resize(tiles.count);
     double spreads = 0, variances = 0, squares = 0, covered = 0;
     for (size_t i = 0; i < pixels.material.size(); ++i) {
         if (pixels.material[i] == 0) continue;
@@ -146,7 +142,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         squares += variance * variance;
         if (!is_interpolated(pixels.decision[i])) continue;
         ++own.interpolated;
-        ++tile_of(i).interpolated;
+        ++result.tiles[tiles.of[i]].interpolated;
     }
     if (covered == 0) return result;
     if (variances > 0) {
@@ -167,7 +163,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         const double square = witnessed(pixels, i, scale, truth);
         witnesses[slot].sum += square;
         witnesses[slot].squares += square * square;
-        ErrorEstimate::Tile& tile = tile_of(i);
+        ErrorEstimate::Tile& tile = result.tiles[tiles.of[i]];
         ++tile.witnesses;
         tile.sum += square;
         tile.squares += square * square;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frame/audit.h"
+#include "frame/tiles.h"
 
 namespace lightband {
 
@@ -19,13 +20,8 @@ double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance);
 // An audit knows better than pilots what a pixel should show.
 double scale_of(const Audit::Pixel& seen, double mean_luminance);
 
-// What interpolation costs is held against the bandwidth in square tiles of so many pixels a side.
-constexpr uint32_t tile_side = 16;
-constexpr uint32_t tiles_along(uint32_t pixels) { return (pixels + tile_side - 1) / tile_side; }
-
 // A round's pixels as read back; all arrays of one length, but radiance and spread (four each) interleaved: targets.h.
 struct RoundPixels {
-    uint32_t width = 1;  // of a row
     std::vector<float> radiance, spread;
     std::vector<float> expected;  // luminance, as predicted; empty where nothing was
     std::vector<uint32_t> sample_count;
@@ -54,14 +50,15 @@ struct ErrorEstimate {
     // What an audit saw beyond noise and interpolation; negative where the spreads tell of more than there is.
     double bias = 0, bias_deviation = 0;
     std::vector<Slot> slots;
-    std::vector<Tile> tiles;  // tiles_along(width) in a row
+    std::vector<Tile> tiles;
 
     double error() const;
     double shading() const { return noise + bias; }  // what more samples lessen
 };
 
-// slot_of: BRDF slot of each instance, at its number.
-ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const Audit& audit);
+// slot_of: BRDF slot of each instance, at its number. tiles: none where nothing is interpolated.
+ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const Audit& audit,
+                             const Tiles& tiles);
 
 // The same of the mean of several frames, from the estimate of one. pixels: those of one frame, but for the radiance.
 void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate);

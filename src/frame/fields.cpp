@@ -21,6 +21,12 @@ std::vector<uint8_t> read_bytes(const gl::Texture& texture, size_t texels) {
     return values;
 }
 
+std::vector<uint32_t> read_words(const gl::Texture& texture, size_t texels) {
+    std::vector<uint32_t> values(texels);
+    texture.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, texels * sizeof(uint32_t), values.data());
+    return values;
+}
+
 // The last of four components; the others a readback can pick by itself.
 std::vector<float> alpha_of(const std::vector<float>& rgba) {
     std::vector<float> alpha(rgba.size() / 4);
@@ -35,36 +41,70 @@ double luminance_of(const float* rgb) { return luminance(Vec3(rgb[0], rgb[1], rg
 RoundPixels Frame::Result::read_round() const {
     const size_t count = size_t(stats.width) * stats.height;
     RoundPixels pixels;
-    pixels.width = stats.width;
     pixels.radiance = read_floats(shading.radiance, GL_RGBA, count, 4);
     pixels.spread = read_floats(shading.spread, GL_RGBA, count, 4);
     if (prediction) pixels.expected = read_floats(prediction->prediction, GL_GREEN, count, 1);
-    pixels.sample_count.resize(count);
-    shading.sample_count.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, count * sizeof(uint32_t), pixels.sample_count.data());
+    pixels.sample_count = read_words(shading.sample_count, count);
     pixels.decision = read_bytes(shading.decision, count);
     pixels.material = read_bytes(gbuffer.material, count);
     return pixels;
 }
 
-std::vector<uint8_t> Frame::Result::levels() const {
-    if (!prediction) return {};
-    std::vector<uint8_t> levels = read_bytes(prediction->levels, size_t(stats.width) * prediction->pyramid_height);
-    levels.resize(size_t(stats.width) * stats.height);
-    return levels;
+Tiles Frame::Result::tiles() const {
+    if (!prediction || !prediction->interpolates()) return {};
+    if (prediction->pyramids) return tiles_of_picture(stats.width, stats.height);
+    const std::vector<uint32_t> words = read_words(prediction->mirrors->cells, size_t(stats.width) * stats.height);
+    const std::vector<uint8_t> material = read_bytes(gbuffer.material, words.size());
+    Tiles tiles{slots * MirrorCells::tiles, std::vector<uint32_t>(words.size())};
+    for (size_t i = 0; i < words.size(); ++i)
+        if (material[i] != 0) tiles.of[i] = MirrorCells::tile_of(words[i], slot_of[material[i] - 1u]);
+    return tiles;
+}
+
+// A pixel of a lattice stands for those nearer to it than to others of the lattice, or of its own spacing; one that speaks for a cell,
+// for those in it.
+std::vector<float> Frame::Result::areas() const {
+    if (!prediction || !prediction->interpolates()) return {};
+    const size_t count = size_t(stats.width) * stats.height;
+    std::vector<float> areas(count, 1);
+    if (prediction->pyramids) {
+        const std::vector<uint8_t> levels = read_bytes(prediction->pyramids->levels, size_t(stats.width) * prediction->pyramids->height);
+        for (size_t i = 0; i < count; ++i) {
+            const uint32_t x = uint32_t(i % stats.width), y = uint32_t(i / stats.width);
+            areas[i] = std::ldexp(1.0f, 2 * int(std::min(lattice_level(x, y, settings.coarsest_level()), uint32_t(levels[i]))));
+        }
+        return areas;
+    }
+    const MirrorCells& mirrors = *prediction->mirrors;
+    const std::vector<uint32_t> words = read_words(mirrors.cells, count);
+    const std::vector<uint8_t> material = read_bytes(gbuffer.material, count);
+    std::vector<uint32_t> pixels_of(mirrors.counts.buffer.bytes() / sizeof(uint32_t));
+    mirrors.counts.buffer.read(0, mirrors.counts.buffer.bytes(), pixels_of.data());
+    for (size_t i = 0; i < count; ++i)
+        if (material[i] != 0 && MirrorCells::level_of(words[i]) != MirrorCells::too_fine)
+            areas[i] = float(pixels_of[mirrors.index_of(words[i], slot_of[material[i] - 1u])]);
+    return areas;
 }
 
 // How interpolation's squared error is spread over the pixels, up to a factor: linear interpolation errs by the square of
-// bandwidth times spacing. A pixel's spacing is that of its lattice's parents.
+// bandwidth times spacing. The spacing is that of a pixel's parents, or of the cells around it.
 std::vector<float> Frame::interpolation_shape() const {
     const Result& r = result();
     std::vector<float> shape(pixels());
-    if (!r.prediction) return shape;
-    const std::vector<float> bandwidth = read_floats(r.prediction->bandwidth, GL_BLUE, pixels(), 1);
+    if (!r.prediction || !r.prediction->interpolates()) return shape;
+    const bool image = bool(r.prediction->pyramids);
+    const std::vector<float> bandwidth = image ? read_floats(r.prediction->bandwidth, GL_BLUE, pixels(), 1)
+                                               : read_floats(r.prediction->reflected, GL_RED, pixels(), 1);
+    const std::vector<uint32_t> words = image ? std::vector<uint32_t>() : read_words(r.prediction->mirrors->cells, pixels());
     for (size_t i = 0; i < shape.size(); ++i) {
-        const uint32_t bits = uint32_t(i % width_) | uint32_t(i / width_);
-        const int level = bits == 0 ? 0 : int(std::log2(double(bits & (~bits + 1))));
-        const double cycles = bandwidth[i] * std::ldexp(1.0, level + 1);  // between two parents
-        shape[i] = float(std::pow(cycles, 4));
+        int level;  // log2 of the spacing between two parents, or across a cell up to a factor
+        if (image) {
+            const uint32_t bits = uint32_t(i % width_) | uint32_t(i / width_);
+            level = 1 + (bits == 0 ? 0 : int(std::log2(double(bits & (~bits + 1)))));
+        } else {
+            level = -int(MirrorCells::level_of(words[i]));
+        }
+        shape[i] = float(std::pow(bandwidth[i] * std::ldexp(1.0, level), 4));
     }
     return shape;
 }
@@ -73,9 +113,33 @@ const std::vector<Frame::FieldName>& Frame::field_names() {
     static const std::vector<FieldName> names = {
         {"color", false}, {"depth", false}, {"position", false}, {"normal", false}, {"curvature", true},
         {"material", false}, {"bandwidth_spatial", true}, {"bandwidth_angular", true}, {"bandwidth_image", true},
-        {"level", true}, {"shaded", false}, {"sample_count", false}, {"error", false}, {"variance_predicted", true},
-        {"variance_measured", false}, {"level_pyramid", true}, {"variance_pyramid", true}};
+        {"bandwidth_reflected", true}, {"level", true}, {"cell_level", true}, {"shaded", false}, {"sample_count", false},
+        {"error", false}, {"variance_predicted", true}, {"variance_measured", false}, {"level_pyramid", true},
+        {"variance_pyramid", true}};
     return names;
+}
+
+// Frames that do not interpolate in the image need no pyramids: theirs are made when they are asked for, of the bandwidth as it is.
+HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& material) const {
+    const Result& r = result();
+    std::optional<Pyramids> made;
+    if (!r.prediction->pyramids) {
+        made.emplace(device_->gl(), width_, height_, r.settings.coarsest_level());
+        Forecast forecast;
+        forecast.mean_radiance = r.mean_radiance;
+        const std::vector<float> unscaled(size_t(tiles_along(width_)) * tiles_along(height_), 1);
+        passes::pyramids(*device_, forecast, unscaled, r.settings, r.gbuffer, width_, height_, *r.prediction, *made);
+    }
+    const Pyramids& pyramids = made ? *made : *r.prediction->pyramids;
+    const size_t count = size_t(width_) * pyramids.height;
+    if (name == "variance_pyramid")
+        return HostArray::of(LB_TYPE_FLOAT32, {pyramids.height, width_}, "", read_floats(pyramids.variances, GL_RED, count, 1));
+    std::vector<uint8_t> levels = read_bytes(pyramids.levels, count);
+    if (name == "level_pyramid") return HostArray::of(LB_TYPE_UINT8, {pyramids.height, width_}, "log2(pixel)", std::move(levels));
+    levels.resize(material.size());
+    for (size_t i = 0; i < levels.size(); ++i)
+        if (material[i] == 0) levels[i] = 0;
+    return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "log2(pixel)", std::move(levels));
 }
 
 HostArray Frame::field(const std::string& name) const {
@@ -129,12 +193,22 @@ HostArray Frame::field(const std::string& name) const {
     if (name == "bandwidth_angular") return scalar(bandwidth(GL_GREEN), "1/radian");
     if (name == "bandwidth_image") return scalar(bandwidth(GL_BLUE), "1/pixel");
     if (name == "curvature") return scalar(alpha_of(read_floats(r.prediction->bandwidth, GL_RGBA, pixels, 4)), "1/metre");
-    if (name == "level") {
-        std::vector<uint8_t> levels = r.levels();
+    if (name == "bandwidth_reflected") {
+        std::vector<float> reflected(pixels);
+        if (r.prediction->mirrors) reflected = read_floats(r.prediction->reflected, GL_RED, pixels, 1);
         for (size_t i = 0; i < pixels; ++i)
-            if (material[i] == 0) levels[i] = 0;
-        return HostArray::of(LB_TYPE_UINT8, flat, "log2(pixel)", std::move(levels));
+            if (material[i] == 0) reflected[i] = 0;
+        return scalar(std::move(reflected), "1/radian");
     }
+    if (name == "cell_level") {
+        std::vector<uint8_t> levels(pixels);
+        if (r.prediction->mirrors) {
+            const std::vector<uint32_t> words = read_words(r.prediction->mirrors->cells, pixels);
+            for (size_t i = 0; i < pixels; ++i) levels[i] = material[i] != 0 ? uint8_t(MirrorCells::level_of(words[i])) : 0;
+        }
+        return HostArray::of(LB_TYPE_UINT8, flat, "log2(cell)", std::move(levels));
+    }
+    if (name == "level" || name == "level_pyramid" || name == "variance_pyramid") return pyramid(name, material);
     if (name == "shaded") {
         std::vector<uint8_t> decisions = read_bytes(r.shading.decision, pixels);
         for (uint8_t& decision : decisions) decision = is_shaded(decision);
@@ -142,16 +216,8 @@ HostArray Frame::field(const std::string& name) const {
     }
     if (name == "variance_predicted")
         return scalar(read_floats(r.prediction->prediction, GL_RED, pixels, 1), "radiance^2");
-    if (name == "level_pyramid")
-        return HostArray::of(LB_TYPE_UINT8, {r.prediction->pyramid_height, width_}, "log2(pixel)",
-                             read_bytes(r.prediction->levels, size_t(width_) * r.prediction->pyramid_height));
-    if (name == "variance_pyramid")
-        return HostArray::of(LB_TYPE_FLOAT32, {r.prediction->pyramid_height, width_}, "",
-                             read_floats(r.prediction->variances, GL_RED, size_t(width_) * r.prediction->pyramid_height, 1));
-
     if (name == "error") return scalar(pixel_errors(r.read_round(), r.estimate, r.slot_of, interpolation_shape()), "");
-    std::vector<uint32_t> counts(pixels);
-    r.shading.sample_count.read(0, GL_RED_INTEGER, GL_UNSIGNED_INT, pixels * sizeof(uint32_t), counts.data());
+    std::vector<uint32_t> counts = read_words(r.shading.sample_count, pixels);
     if (name == "sample_count") return HostArray::of(LB_TYPE_UINT32, flat, "sample", std::move(counts));
     // variance_measured: the samples' own, unbiased; rounding may leave a constant integrand slightly below zero.
     const std::vector<float> radiance = r.accumulated.empty() ? read_floats(r.shading.radiance, GL_RGBA, pixels, 4) : r.accumulated;

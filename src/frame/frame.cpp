@@ -5,7 +5,10 @@
 #include <numeric>
 
 #include "frame/job.h"
+#include "passes/foresee.h"
 #include "passes/gbuffer.h"
+#include "passes/interpolate.h"
+#include "passes/mirror_cells.h"
 
 namespace lightband {
 namespace {
@@ -20,6 +23,11 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
 // Samples of a round for which the map's directions are drawn anew: those of one drawing, 65,536, would limit the error. It costs as
 // much as half a million samples or so.
 constexpr uint64_t worth_new_points = 1u << 23;
+
+// Fewer covered pixels than this are shaded in the time that it takes to find out from where they could be interpolated; of them, where
+// fewer than this part would be shaded in the image, so few are left to be spared.
+constexpr uint32_t worthwhile_pixels = 40'000;
+constexpr double smooth_part = 0.12;
 
 }  // namespace
 
@@ -52,11 +60,13 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     next.stats.height = height_;
     next.eye = scene.camera->eye;
     next.slot_of = slots.of_instance;
+    next.slots = slots.materials.size();
     job.report(0);
 
     passes::gbuffer(*device_, scene, width_, height_, &next.gbuffer);
     next.plan.finished("gbuffer", text(scene.instances().size(), " instances"), next.gbuffer.bytes(), pixels(), "pixels");
-    job.covered = passes::covered(gl, next.gbuffer, width_, height_, settings.coarsest_level());
+    const bool lattices = settings.interpolation() != Interpolation::directions;
+    job.covered = passes::covered(gl, next.gbuffer, width_, height_, lattices ? settings.coarsest_level() : 0);
     next.plan.finished("covered", "list of the pixels that see a mesh", job.covered.entries.bytes(), pixels(), "pixels");
     Forecast forecast = predict(&job);
     audit(&job, &forecast);
@@ -90,7 +100,7 @@ void Frame::finish(Job* job) const {
                          (next.prediction ? next.prediction->bytes() : 0) + next.shading.bytes() + job->list.entries.bytes();
     stats.milliseconds = next.plan.total_milliseconds();
     stats.bandwidth_milliseconds = next.plan.milliseconds_of(
-        {"environment", "bandwidth", "probe", "audit", "doubt", "pyramids", "classify", "list", "estimate"});
+        {"environment", "bandwidth", "probe", "audit", "doubt", "foresee", "pyramids", "cells", "classify", "list", "estimate"});
     stats.shading_milliseconds = next.plan.milliseconds_of({"shade"});
     stats.error = next.estimate.error();
     stats.noise_error = std::sqrt(next.estimate.noise + std::min(next.estimate.bias, 0.0));
@@ -106,30 +116,95 @@ Forecast Frame::predict(Job* job) const {
     for (const Material* material : job->slots.materials) material->pilots(settings.band_rule(), settings.pilots());
     next.plan.finished("environment", "bandwidth of the map and the lobes; once for each", job->scene.light->device_bytes(), 0, "");
 
-    const Prediction& prediction = next.prediction.emplace(device_->gl(), width_, height_, settings.coarsest_level());
+    // Frames that are asked for no error do not know what it would cost; those asked for a time do without what takes some to find out.
+    const bool maybe = settings.interpolation() == Interpolation::automatic && settings.target_error() > 0 &&
+                       settings.time_budget() <= 0 && job->covered.all.count >= worthwhile_pixels;
+    const bool over_directions =
+        settings.coarsest_level() > 0 && (maybe || settings.interpolation() == Interpolation::directions);
+    const Prediction& prediction = next.prediction.emplace(device_->gl(), width_, height_, over_directions);
     passes::predict(*device_, job->scene, job->slots, job->slot_of, settings, height_, job->covered, next.gbuffer, prediction);
     const Forecast forecast = passes::forecast(*device_, job->covered, prediction, height_);
+    next.mean_radiance = forecast.mean_radiance;
     next.plan.finished("bandwidth", text("eq. 5, 6 and 9 with ", settings.pilots(), " directions"),
                        prediction.bandwidth.bytes() + prediction.prediction.bytes(), job->covered.all.count, "pixels");
     return forecast;
 }
 
-// Which pixels are shaded at the scales that control has chosen.
-void Frame::decide(Job* job, const Control& control, const Forecast& forecast) const {
+// What interpolation would cost at control's scales: by the pilots, at some of the pixels, and by how far pilots are right of what audited
+// pixels show.
+std::vector<ForeseenTile> Frame::foresee(Job* job, const Control& control, const Forecast& forecast) const {
+    Result& next = *job->result;
+    constexpr uint32_t telling_pixels = 6000, most_stride = 16;
+    const uint32_t stride = std::clamp(job->covered.all.count / telling_pixels, 1u, most_stride);
+    passes::mirror_cells(*device_, control.scales(), 0, settings, job->slot_of, job->covered, next.gbuffer, next.shading, *next.prediction,
+                         stride);
+    std::vector<ForeseenTile> tiles = passes::foresee(*device_, next.slots, forecast, control.tolerance(), job->slot_of, job->covered,
+                                                      next.gbuffer, *next.prediction, stride);
+    const double truth = rehearsed(*job, forecast.mean_radiance) * control.left_by_finer(std::sqrt(double(stride)));
+    for (ForeseenTile& tile : tiles) tile.squares *= truth;
+    next.plan.finished("foresee", "what interpolation will cost, by the pilots", 0, job->covered.all.count / stride, "pixels");
+    return tiles;
+}
+
+// Chooses the way of interpolation, where that is left to the frame, makes what it needs, and foresees what it will cost.
+void Frame::prepare_interpolation(Job* job, const Forecast& forecast) const {
+    Result& next = *job->result;
+    Settings& own = job->settings;
+    if (!next.prediction || own.coarsest_level() == 0) return;
+    const double elapsed = next.plan.total_milliseconds();
+    const bool automatic = own.interpolation() == Interpolation::automatic;
+    double in_image = 0;  // pixels
+    if (automatic) {
+        own.set_choice("interpolation", "image");
+        if (next.prediction->reflected) {
+            const double scale = Control(own, forecast, 1, pace_, elapsed).scales().front();
+            in_image = passes::lattice_pixels(*device_, next.gbuffer, *next.prediction, height_, scale, own.coarsest_level());
+            if (in_image > smooth_part * forecast.covered) own.set_choice("interpolation", "directions");
+        }
+    }
+    if (own.interpolation() == Interpolation::directions) {
+        next.prediction->mirrors.emplace(device_->gl(), width_, height_, next.slots, job->covered.all.count);
+        Control control(own, forecast, next.slots * MirrorCells::tiles, pace_, elapsed);
+        if (!(own.bandwidth_scale() > 0)) job->foreseen = foresee(job, control, forecast);
+        if (!automatic || control.spares(job->foreseen, in_image)) return;
+        own.set_choice("interpolation", "image");
+        next.prediction->mirrors.reset();
+    }
+    next.prediction->pyramids.emplace(device_->gl(), width_, height_, own.coarsest_level());
+}
+
+// How fine the bandwidth times the scales that control has chosen asks pixels to be shaded.
+void Frame::choose_levels(Job* job, const Control& control, const Forecast& forecast, double witnesses) const {
+    Result& next = *job->result;
+    if (job->scales == control.scales()) return;
+    job->scales = control.scales();
+    const auto [least, most] = std::minmax_element(control.scales().begin(), control.scales().end());
+    const std::string scaled = text(", bandwidth times ", *least, " to ", *most);
+    if (next.prediction->pyramids) {
+        passes::pyramids(*device_, forecast, control.scales(), settings, next.gbuffer, width_, height_, *next.prediction,
+                         *next.prediction->pyramids);
+        next.plan.finished("pyramids", "least level and largest variance of each block" + scaled, next.prediction->pyramids->bytes(),
+                           pixels(), "pixels");
+        return;
+    }
+    passes::mirror_cells(*device_, control.scales(), witnesses, settings, job->slot_of, job->covered, next.gbuffer, next.shading,
+                         *next.prediction);
+    next.plan.finished("cells", "pixels by mirror direction, one of each cell to be shaded" + scaled, next.prediction->mirrors->bytes(),
+                       job->covered.all.count, "pixels");
+}
+
+// Which pixels are shaded.
+void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
-    if (prediction != nullptr && job->scales != control.scales()) {
-        job->scales = control.scales();
-        passes::pyramids(*device_, forecast, control.scales(), settings, next.gbuffer, width_, height_, *prediction);
-        const auto [least, most] = std::minmax_element(control.scales().begin(), control.scales().end());
-        next.plan.finished("pyramids",
-                           text("least level and largest variance of each block, bandwidth times ", *least, " to ", *most),
-                           prediction->levels.bytes() + prediction->variances.bytes(), pixels(), "pixels");
-    }
-    job->counts = passes::classify(*device_, job->slot_of, job->slots.materials.size(), job->settings,
-                                   std::max(control.witnesses(), job->audited), forecast, control.tolerance(), job->redraw.bins, width_,
-                                   job->covered, next.gbuffer, prediction, next.shading);
+    const double witnesses = std::max(control->witnesses(), job->audited);
     const bool interpolates = prediction != nullptr && job->settings.coarsest_level() > 0;
+    if (interpolates) {
+        choose_levels(job, *control, forecast, witnesses);
+        if (job->tiles.of.empty()) job->tiles = next.tiles();
+    }
+    job->counts = passes::classify(*device_, job->slot_of, next.slots, job->settings, witnesses, forecast, control->tolerance(),
+                                   job->redraw.bins, width_, job->covered, next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", interpolates ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
 }
@@ -138,18 +213,18 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     const bool first = next.stats.rounds == 1;
     if (!first)
-        job->redraw = redraw(job->pixels, next.levels(), job->settings.coarsest_level(), next.estimate.mean_luminance,
+        job->redraw = redraw(job->pixels, control->interpolates() ? next.areas() : std::vector<float>(), next.estimate.mean_luminance,
                              settings.allocation(), control->budget(), control->wanted_part());
-    decide(job, *control, forecast);
+    decide(job, control, forecast);
     if (control->reconsider(job->counts.bins(), next.plan.total_milliseconds())) {
         if (!control->interpolates()) job->settings.set_number("coarsest_level", 0);
-        decide(job, *control, forecast);
+        decide(job, control, forecast);
     }
     const double elapsed = next.plan.total_milliseconds();
     const Histogram fresh = job->counts.fresh_bins();
     const Budget& budget = first ? control->plan(fresh, elapsed) : control->plan_further(job->redraw.drawn, fresh, elapsed);
     job->drawn = redrawing(job->redraw.drawn, fresh, budget);
-    if (first && audit_again(job)) decide(job, *control, forecast);
+    if (first && audit_again(job)) decide(job, control, forecast);
     job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, job->covered, next.gbuffer,
                                      next.shading);
     next.plan.finished("list", "pixels to shade, longest first", job->list.entries.bytes(), job->covered.all.count, "pixels");
@@ -167,15 +242,15 @@ void Frame::shade(Job* job, const passes::Seeds& seeds) const {
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
                        list.total_samples, "samples");
     if (!next.prediction || job->settings.coarsest_level() == 0) return;
-    passes::upsample(*device_, settings, job->covered, next.gbuffer, *next.prediction, next.shading);
-    next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count,
-                       "pixels");
+    passes::interpolate(*device_, settings, job->slot_of, job->covered, next.gbuffer, *next.prediction, next.shading);
+    next.plan.finished(next.prediction->mirrors ? "interpolate" : "upsample",
+                       "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count, "pixels");
 }
 
 void Frame::measure(Job* job) const {
     Result& next = *job->result;
     RoundPixels pixels = next.read_round();
-    next.estimate = estimate_error(pixels, next.slot_of, job->slots.materials.size(), job->audit);
+    next.estimate = estimate_error(pixels, next.slot_of, next.slots, job->audit, job->tiles);
     job->samples = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
     // A pixel is drawn anew or left as it was.
     const std::vector<uint32_t>& before = job->pixels.sample_count;
@@ -196,8 +271,11 @@ void Frame::measure(Job* job) const {
 void Frame::rounds(Job* job, const Forecast& forecast) {
     Result& next = *job->result;
     next.shading.clear(device_->gl());
-    Control control(settings, forecast, size_t(tiles_along(width_)) * tiles_along(height_), pace_,
-                    next.plan.total_milliseconds());
+    prepare_interpolation(job, forecast);
+    const size_t tiles = job->settings.interpolation() != Interpolation::directions ? size_t(tiles_along(width_)) * tiles_along(height_)
+                                                                          : next.slots * MirrorCells::tiles;
+    Control control(job->settings, forecast, tiles, pace_, next.plan.total_milliseconds());
+    if (!job->foreseen.empty() && job->settings.interpolation() == Interpolation::directions) control.follow(job->foreseen);
     const bool one = settings.target_error() <= 0 && settings.time_budget() <= 0;
     uint32_t points_seed = settings.seed();
     RoundCost& cost = job->cost;

@@ -52,18 +52,23 @@ private:
     std::vector<Audit::Pixel> shade_alike(const Job& job, const std::vector<uint32_t>& drawn, const Settings& own, uint32_t samples,
                                           uint32_t seed) const;
     void audit(Job* job, Forecast* forecast) const;
+    double rehearsed(const Job& job, double mean_radiance) const;
     double probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const;
     void look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const;
     void doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32_t probe_samples, double mean_radiance) const;
     bool audit_again(Job* job) const;
     void rounds(Job* job, const Forecast& forecast);
-    void decide(Job* job, const Control& control, const Forecast& forecast) const;
+    void prepare_interpolation(Job* job, const Forecast& forecast) const;
+    std::vector<ForeseenTile> foresee(Job* job, const Control& control, const Forecast& forecast) const;
+    void choose_levels(Job* job, const Control& control, const Forecast& forecast, double witnesses) const;
+    void decide(Job* job, Control* control, const Forecast& forecast) const;
     void list(Job* job, Control* control, const Forecast& forecast) const;
     void shade(Job* job, const passes::Seeds& seeds) const;
     void measure(Job* job) const;
     void accumulate(Job* job) const;
     void finish(Job* job) const;
     std::vector<float> interpolation_shape() const;
+    HostArray pyramid(const std::string& name, const std::vector<uint8_t>& material) const;
     uint64_t pixels() const { return uint64_t(width_) * height_; }
 
     gl::DevicePtr device_;

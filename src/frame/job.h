@@ -16,7 +16,9 @@ struct Frame::Job {
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
     passes::Covered covered{};
-    std::vector<float> scales{};             // of the pyramids as they are
+    std::vector<float> scales{};             // of the levels as they are
+    Tiles tiles{};                           // none yet where empty
+    std::vector<ForeseenTile> foreseen{};    // of interpolation over directions; none where empty
     passes::Counts counts{};
     passes::ShadingList list{};              // of the last round
     RoundPixels pixels{};                    // as the last round left them

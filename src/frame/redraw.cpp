@@ -23,13 +23,6 @@ struct Candidate {
     double samples, noise, deserved;  // noise: squared and relative, as often as it is interpolated from; deserved: samples
 };
 
-// Pixels that a pixel stands for: those of the lattice on which it lies, or of its own spacing.
-double area_of(size_t at, uint32_t width, const std::vector<uint8_t>& levels, uint32_t coarsest) {
-    if (levels.empty()) return 1;
-    const uint32_t level = std::min(lattice_level(uint32_t(at % width), uint32_t(at / width), coarsest), uint32_t(levels[at]));
-    return std::ldexp(1.0, int(2 * level));
-}
-
 std::vector<Candidate> candidates(const RoundPixels& pixels, double mean_luminance) {
     std::vector<Candidate> result;
     double sum = 0;
@@ -78,8 +71,8 @@ uint32_t bin_of(double deserved, uint32_t worth, const Budget& budget) {
 
 }  // namespace
 
-Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uint32_t coarsest, double mean_luminance,
-              Allocation allocation, const Budget& budget, double part) {
+Redraw redraw(const RoundPixels& pixels, const std::vector<float>& areas, double mean_luminance, Allocation allocation,
+              const Budget& budget, double part) {
     Redraw result;
     result.bins.resize(pixels.material.size());
     std::vector<Candidate> drawn = candidates(pixels, mean_luminance);
@@ -89,7 +82,7 @@ Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uin
         if (allocation == Allocation::constant_variance) {
             pixel.deserved = pixel.samples * std::pow(pixel.noise, 1 / stratified_gain);
         } else {
-            pixel.noise *= area_of(pixel.at, pixels.width, levels, coarsest);
+            if (!areas.empty()) pixel.noise *= double(areas[pixel.at]);
             pixel.deserved = pixel.samples * std::pow(pixel.noise / pixel.samples, 1 / (1 + stratified_gain));
         }
         deserved += pixel.deserved;

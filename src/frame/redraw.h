@@ -12,9 +12,9 @@ struct Redraw {
 };
 
 // budget: of the former round. part: of the noise that is to be left by it; 0: pixels move to bins so that on the whole they keep
-// what they had, and the budget is to be replanned. levels: log2 of the spacing that each pixel's bandwidth asks for; empty where
-// nothing is interpolated. coarsest: level of the frame.
-Redraw redraw(const RoundPixels& pixels, const std::vector<uint8_t>& levels, uint32_t coarsest, double mean_luminance,
-              Allocation allocation, const Budget& budget, double part);
+// what they had, and the budget is to be replanned. areas: the number of pixels for which each stands; empty where nothing is
+// interpolated.
+Redraw redraw(const RoundPixels& pixels, const std::vector<float>& areas, double mean_luminance, Allocation allocation,
+              const Budget& budget, double part);
 
 }  // namespace lightband

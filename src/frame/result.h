@@ -16,10 +16,13 @@ struct Frame::Result {
     std::optional<Prediction> prediction;
     Shading shading;
     std::vector<uint32_t> slot_of;   // BRDF slot of each instance
+    size_t slots = 0;
+    double mean_radiance = 0;  // as predicted, of the covered pixels
     ErrorEstimate estimate;
 
     RoundPixels read_round() const;
-    std::vector<uint8_t> levels() const;  // log2 of the spacing that each pixel asks for; empty where nothing was predicted
+    Tiles tiles() const;
+    std::vector<float> areas() const;     // the number of pixels for which each shaded one stands; empty where nothing was predicted
     std::vector<float> accumulated;  // RGBA means over several frames, where asked for
     Plan plan;
     lb_frame_stats stats = LB_FRAME_STATS_INIT;

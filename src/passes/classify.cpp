@@ -14,7 +14,9 @@ std::string definitions(const Settings& settings, const Prediction* prediction) 
     std::string result = text("BINS ", budget_bins, "\nSHARE_ONE ", share_one, "\nBINS_PER_OCTAVE ", bins_per_octave);
     if (prediction == nullptr) return result;
     result += "\nPREDICTED";
-    if (settings.coarsest_level() > 0) result += text("\nINTERPOLATE\nPYRAMID_LEVELS ", prediction->rows.size());
+    if (settings.coarsest_level() > 0 && prediction->pyramids)
+        result += text("\nINTERPOLATE_IMAGE\nPYRAMID_LEVELS ", prediction->pyramids->rows.size());
+    if (settings.coarsest_level() > 0 && prediction->mirrors) result += "\nINTERPOLATE_DIRECTIONS\n" + prediction->mirrors->definitions();
     if (settings.sampler() == Sampler::cut) result += "\nSAMPLER_CUT";
     if (settings.allocation() == Allocation::constant_variance) result += "\nALLOCATION_CONSTANT_VARIANCE";
     return result;
@@ -54,21 +56,30 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
         former = gl::Texture::image(gl, GL_R8UI, width, uint32_t(former_bins.size() / width));
         former.upload(width, uint32_t(former_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, former_bins.data());
     }
-    program.set("coarsest_level", int32_t(settings.coarsest_level()));
-    program.set("witnesses", uint32_t(witnesses * 0x1p32));
-    program.set("seed", settings.seed());
+    set_witnesses(program, witnesses, settings.seed());
     program.use();
     bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 2, gbuffer.material);
     bind_texture(gl, 3, slot_of.texture);
     if (prediction != nullptr) {
-        program.set_array("pyramid_rows", prediction->rows.data(), int32_t(prediction->rows.size()));
-        bind_image(gl, 0, prediction->levels, GL_R8UI);
-        bind_image(gl, 1, prediction->variances, GL_R32F);
         bind_texture(gl, 4, prediction->bandwidth);
         bind_texture(gl, 5, prediction->prediction);
         program.set("mean_radiance", float(forecast.mean_radiance));
         program.set("tolerance", float(tolerance));
+    }
+    if (prediction != nullptr && prediction->pyramids) {
+        const Pyramids& pyramids = *prediction->pyramids;
+        program.set("coarsest_level", int32_t(settings.coarsest_level()));
+        program.set_array("pyramid_rows", pyramids.rows.data(), int32_t(pyramids.rows.size()));
+        bind_image(gl, 0, pyramids.levels, GL_R8UI);
+        bind_image(gl, 1, pyramids.variances, GL_R32F);
+    }
+    if (prediction != nullptr && prediction->mirrors) {
+        bind_texture(gl, 8, prediction->mirrors->cells);
+        bind_texture(gl, 9, prediction->mirrors->claims.texture);
+        bind_texture(gl, 10, prediction->mirrors->counts.texture);
+        bind_texture(gl, 11, prediction->mirrors->occupants.texture);
+        bind_texture(gl, 12, prediction->mirrors->mirrors.texture);
     }
     if (further) bind_texture(gl, 6, former);
     bind_image(gl, 2, target.decision, GL_R8UI);

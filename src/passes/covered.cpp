@@ -35,13 +35,15 @@ Covered covered(const gl::Functions& gl, const GBuffer& gbuffer, uint32_t width,
     return result;
 }
 
-void dispatch_covered(const gl::Functions& gl, const gl::Program& program, const Covered& covered, const Covered::Part& part) {
+void dispatch_covered(const gl::Functions& gl, const gl::Program& program, const Covered& covered, const Covered::Part& part,
+                      uint32_t stride) {
     bind_texture(gl, 15, covered.texture);
-    for (uint32_t done = 0; done < part.count; done += most_groups * group) {
-        const uint32_t count = std::min(part.count - done, most_groups * group);
+    program.set("stride", stride);
+    for (uint32_t done = 0; done < part.count; done += most_groups * group * stride) {
+        const uint32_t count = std::min(part.count - done, most_groups * group * stride);
         program.set("first", part.first + done);
         program.set("count", count);
-        gl.DispatchCompute((count + group - 1) / group, 1, 1);
+        gl.DispatchCompute((count + group * stride - 1) / (group * stride), 1, 1);
     }
     gl.MemoryBarrier(everything);
 }

@@ -22,6 +22,12 @@ inline void bind_image(const gl::Functions& gl, GLuint unit, const gl::Texture& 
     gl.BindImageTexture(unit, texture.name(), GLint(level), GL_FALSE, 0, GL_READ_WRITE, format);
 }
 
+// What shaders/witnesses.glsl draws by. part: of all pixels.
+inline void set_witnesses(const gl::Program& program, double part, uint32_t seed) {
+    program.set("witnesses", uint32_t(part * 0x1p32));
+    program.set("seed", seed);
+}
+
 // Every layer of an array of images.
 inline void bind_images(const gl::Functions& gl, GLuint unit, const gl::Texture& texture, GLenum format, uint32_t level = 0) {
     gl.BindImageTexture(unit, texture.name(), GLint(level), GL_TRUE, 0, GL_READ_WRITE, format);

@@ -26,14 +26,14 @@ gl::Buffer all_pilots(const gl::Functions& gl, const Scene::Slots& slots, const 
     return gl::Buffer(gl, all.size() * sizeof(Pilot), all.data());
 }
 
-// Sum over the frame of what shaders/row_sums.glsl adds up.
-double row_sums(gl::Device& device, const Prediction& prediction, uint32_t height, const char* definitions, double mean) {
+// Sum over the frame of what shaders/row_sums.glsl adds up; prepare: sets what it needs.
+template <class Prepare>
+double row_sums(gl::Device& device, uint32_t height, const char* definitions, Prepare prepare) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer sums(gl, height * sizeof(float), nullptr);
     const gl::Program& program = device.compute("row_sums", definitions);
-    program.set("mean_radiance", float(mean));
+    prepare(program);
     program.use();
-    bind_texture(gl, 0, prediction.prediction);
     bind_storage(gl, 0, sums);
     gl.DispatchCompute((height + 63) / 64, 1, 1);
     gl.MemoryBarrier(everything);
@@ -65,6 +65,7 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
         "bandwidth", text("LOBE_VIEWS ", LobeTable::views,
                           settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
                           settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
+                          target.reflected ? "\nOVER_DIRECTIONS" : "",
                           sampler_definition(settings.sampler())));
     // Of a map so dark that this leaves the range of float, every squared radiance is 0: the largest float times that is 0, as it
     // should be, where infinity times that is not a number.
@@ -81,6 +82,7 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
     bind_texture(gl, 5, slot_of.texture);
     bind_image(gl, 0, target.bandwidth, GL_RGBA32F);
     bind_image(gl, 1, target.prediction, GL_RG32F);
+    if (target.reflected) bind_image(gl, 2, target.reflected, GL_R32F);
     // Where nothing is seen, nothing arrives.
     const float zeros[4] = {0, 0, 0, 0};
     gl.ClearTexImage(target.bandwidth.name(), 0, GL_RGBA, GL_FLOAT, zeros);
@@ -92,13 +94,27 @@ Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& 
     Forecast result;
     result.covered = covered.all.count;
     if (result.covered == 0) return result;
-    result.mean_radiance = row_sums(device, prediction, height, "", 0) / result.covered;
-    result.relative_deviation = row_sums(device, prediction, height, "DEVIATIONS", result.mean_radiance) / result.covered;
+    const auto predicted = [&](const gl::Program& program) {
+        program.set("mean_radiance", float(result.mean_radiance));
+        bind_texture(device.gl(), 0, prediction.prediction);
+    };
+    result.mean_radiance = row_sums(device, height, "", predicted) / result.covered;
+    result.relative_deviation = row_sums(device, height, "DEVIATIONS", predicted) / result.covered;
     return result;
 }
 
+double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t height, double scale,
+                      uint32_t coarsest_level) {
+    return row_sums(device, height, "LATTICES", [&](const gl::Program& program) {
+        program.set("scale", float(scale));
+        program.set("coarsest_level", int32_t(coarsest_level));
+        bind_texture(device.gl(), 0, prediction.bandwidth);
+        bind_texture(device.gl(), 1, gbuffer.material);
+    });
+}
+
 void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales,
-              const Settings& settings, const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& target) {
+              const Settings& settings, const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.size(), 1) * sizeof(float), scales.data());
     const gl::Texture scales_texture = gl::Texture::of_buffer(gl, GL_R32F, scale_buffer);
@@ -116,8 +132,8 @@ void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<fl
             h = (h + 1) / 2;
         }
         program.use();
-        bind_texture(gl, 0, target.prediction);
-        bind_texture(gl, 1, target.bandwidth);
+        bind_texture(gl, 0, prediction.prediction);
+        bind_texture(gl, 1, prediction.bandwidth);
         bind_texture(gl, 2, gbuffer.material);
         bind_texture(gl, 3, scales_texture);
         bind_image(gl, 0, target.levels, GL_R8UI);

@@ -21,9 +21,13 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
 
 Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& prediction, uint32_t height);
 
+// How many pixels would be shaded in the image at that scale, if all around each asked for the level that it asks for.
+double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t height, double scale,
+                      uint32_t coarsest_level);
+
 // Levels (eq. 11) and relative variances with their min and max pyramids (shaders/pyramid.glsl). scales: factor on the bandwidth in
-// each tile (frame/estimate.h).
-void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales,
-              const Settings& settings, const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& target);
+// each tile of the picture (frame/tiles.h).
+void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales, const Settings& settings,
+              const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target);
 
 }  // namespace lightband::passes

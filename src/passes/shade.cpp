@@ -104,24 +104,6 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
     }
 }
 
-void upsample(gl::Device& device, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
-              const Prediction& prediction, const Shading& target) {
-    const gl::Functions& gl = device.gl();
-    const gl::Program& program = device.compute("upsample");
-    program.use();
-    bind_surfaces(gl, program, gbuffer);
-    bind_texture(gl, 2, gbuffer.material);
-    bind_texture(gl, 3, target.decision);
-    bind_image(gl, 0, target.radiance, GL_RGBA32F);
-    bind_texture(gl, 4, target.sample_count);
-    bind_image(gl, 1, prediction.levels, GL_R8UI);
-    bind_image(gl, 2, target.spread, GL_RGBA32F);
-    for (uint32_t level = settings.coarsest_level(); level-- > 0;) {
-        program.set("level", int32_t(level));
-        dispatch_covered(gl, program, covered, covered.levels[level]);
-    }
-}
-
 void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
                 const Shading& target) {
     const gl::Functions& gl = device.gl();

