@@ -7,7 +7,7 @@
 namespace lightband {
 namespace {
 
-// As shaders/neighbours.glsl, but for the choice of neighbours: the nearest.
+// As shaders/neighbours.glsl, but for the choice of neighbours, the nearest, and for slopes, of which pixels so far apart tell less.
 constexpr size_t around = 9;
 constexpr double normal_share = 0.5, flatness = 0.005, trace = 1e-3;
 // Sums of squares below this are rounding: of some hundred pixels by 1e-8.

@@ -182,3 +182,18 @@ def test_extremes(context, light, material):
             assert np.isfinite(frame.error).all() and np.isfinite(frame.stats.error)
             if light == "black" or material == "black":
                 assert (frame.color[..., :3] == 0).all()
+
+
+@pytest.mark.parametrize("settings", [{"samples": 16}, {"target_error": 0.05}, {"time_budget": 50}])
+def test_a_frame_that_sees_nothing(context, patched, settings):
+    """With a mesh behind the eye, and with none."""
+    for meshes in (0, 1):
+        scene = context.scene()
+        scene.environment = patched
+        for _ in range(meshes):
+            scene.add(context.builtin_mesh("sphere", 16), context.ggx(0.3, 0.9))
+        scene.camera(eye=(0, 0, 2), target=(0, 0, 4))
+        frame = context.frame(32, 16, interpolation="directions", **settings)
+        frame.render(scene)
+        assert frame.stats.covered_pixels == frame.stats.shaded_pixels == 0 and frame.stats.error == 0
+        assert (frame.color == 0).all() and (frame.cell_level == 0).all()
