@@ -101,7 +101,8 @@ def draw(rows: list[dict], path: Path) -> None:
                         label=f"{size} x {size}, {100 * target:.0f} %")
             times.plot(ratios, [row["directions ms"] / row["image ms"] for row in own], **style)
         pixels.plot([0.04, 1], [0.04, 1], color=GUIDE, linewidth=0.8)
-        pixels.set(xlabel="shaded in the image, of the covered pixels", ylabel="shaded over directions", title="Pixels for the same error asked for")
+        pixels.set(xlabel="shaded in the image, of the covered pixels", ylabel="shaded over directions",
+                   title="Pixels for the same error asked for")
         for which in "xy":
             log_axis(pixels, which, [0.05, 0.1, 0.2, 0.5, 1], percent)
         pixels.legend()

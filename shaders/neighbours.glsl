@@ -39,7 +39,8 @@ Neighbours neighbours_of(uint place, uint word, uint slot) {
     // Steps of a direction and of the normal, across the plane of reflection and along it.
     vec3 across = cross(here.normal, here.direction), other = abs(here.normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     across = normalize(dot(across, across) > 1e-10 ? across : cross(here.normal, other));
-    vec3 along = cross(across, here.direction), normal_along = normal_share * cross(across, here.normal), normal_across = normal_share * across;
+    vec3 along = cross(across, here.direction);
+    vec3 normal_along = normal_share * cross(across, here.normal), normal_across = normal_share * across;
     float per_width = 1.0 / (kernel_width * cell_width(here.direction, level));
 
     Neighbours result;

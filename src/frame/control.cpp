@@ -54,7 +54,7 @@ constexpr double least_growth = 1.1, most_growth = 8;
 constexpr double least_share = 0.2, most_share = 0.6, share_step = 0.1;
 // Their first rounds aim below the share, since little is foreseen well.
 constexpr double foreseen_aim = 0.6;
-// What further rounds are thought to add; and where interpolation over directions is to be chosen, what it is to cost of what else there is.
+// What further rounds are thought to add; and what interpolation over directions is to cost, of what else there is, to be chosen.
 constexpr double cautious = 1.15, clearly_less = 0.75;
 // In the image so many times the pixels are shaded that lattices foretell: edges, contrasts, the worst pixel of a block.
 constexpr double beside_lattices = 1.6;
@@ -121,7 +121,8 @@ double Control::first_scale(double elapsed) {
         if (settings_.time_budget() > 0) {
             // A tenth of the time at least: where there is none left, the coarsest levels serve best.
             const double left = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.1 * settings_.time_budget());
-            samples = std::max(left * pace_.samples_per_millisecond / std::max(forecast_.covered, 1.0) - Pace::pixel_samples, fewest_in_time);
+            const double each = left * pace_.samples_per_millisecond / std::max(forecast_.covered, 1.0);
+            samples = std::max(each - Pace::pixel_samples, fewest_in_time);
         } else {
             expected = smoothness.unmeasured;
         }

@@ -37,7 +37,8 @@ std::array<double, around> fit(const std::vector<RehearsedPixel>& pixels, const 
     double sum = 0;
     for (size_t k = 0; k < around; ++k) {
         const RehearsedPixel& there = pixels[neighbours[k].at];
-        const Vec3 turned = (there.direction - here.direction) * per_width, tilted = (there.normal - here.normal) * (per_width * normal_share);
+        const Vec3 turned = (there.direction - here.direction) * per_width;
+        const Vec3 tilted = (there.normal - here.normal) * (per_width * normal_share);
         const double squared = glm::dot(turned, turned) + glm::dot(tilted, tilted), near = std::max(1 - squared, 0.0);
         weights[k] = near * near + trace / (1 + squared);
         steps[k] = {glm::dot(turned, across), glm::dot(turned, along), glm::dot(tilted, across), glm::dot(tilted, normal_along)};

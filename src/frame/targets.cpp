@@ -80,7 +80,8 @@ Prediction::Prediction(const gl::Functions& gl, uint32_t width, uint32_t height,
       reflected(over_directions ? Texture::image(gl, GL_R32F, width, height) : Texture()) {}
 
 size_t Prediction::bytes() const {
-    return bandwidth.bytes() + prediction.bytes() + reflected.bytes() + (pyramids ? pyramids->bytes() : 0) + (mirrors ? mirrors->bytes() : 0);
+    return bandwidth.bytes() + prediction.bytes() + reflected.bytes() + (pyramids ? pyramids->bytes() : 0) +
+           (mirrors ? mirrors->bytes() : 0);
 }
 
 Shading::Shading(const gl::Functions& gl, uint32_t width, uint32_t height)

@@ -113,8 +113,8 @@ double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Predicti
     });
 }
 
-void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales,
-              const Settings& settings, const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target) {
+void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales, const Settings& settings,
+              const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.size(), 1) * sizeof(float), scales.data());
     const gl::Texture scales_texture = gl::Texture::of_buffer(gl, GL_R32F, scale_buffer);
