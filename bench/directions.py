@@ -82,10 +82,17 @@ def summary(rows: list[dict]) -> str:
         lines.append(
             f"{size} x {size}, {100 * target:.0f} %: of the pixels shaded in the image, directions "
             f"{geometric_mean([row['directions shaded'] / row['image shaded'] for row in own]):.2f}; of the oracle's, "
-            f"{np.median([row['directions/oracle'] for row in own]):.2f} (median); of the time, directions "
+            f"{np.median([row['directions/oracle'] for row in own]):.2f} (median), but for spheres "
+            f"{np.median([row['directions/oracle'] for row in own if row['mesh'] != 'sphere']):.2f}; of the time, directions "
             f"{geometric_mean([row['directions ms'] / row['image ms'] for row in own]):.2f}, auto "
             f"{geometric_mean([row['auto ms'] / row['image ms'] for row in own]):.2f}; auto chose directions in {len(chosen)} of {len(own)}"
             + (f", there {geometric_mean([row['auto ms'] / row['image ms'] for row in chosen]):.2f} of the time" if chosen else ""))
+    for size in sorted({row["size"] for row in rows}):
+        halved = [row for row in rows if row["size"] == size and row["directions shaded"] < 0.5 * row["image shaded"]]
+        times = [row["directions ms"] / row["image ms"] for row in halved]
+        if halved:
+            lines.append(f"{size} x {size}: directions shade less than half the pixels in {len(halved)} frames, in {geometric_mean(times):.2f} "
+                         f"of the time, at most {max(times):.2f}")
     return "\n".join(lines)
 
 

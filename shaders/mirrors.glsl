@@ -21,7 +21,7 @@ Mirror mirror_of(uvec4 words) {
 // Mirror directions lie in the cells of octahedral squares: at level l, 2^l a side. A pixel asks for the coarsest level whose cells are
 // fine enough for it; the bits of its word are that level and its cell there.
 const int first_level = FIRST_LEVEL, last_level = LAST_LEVEL;
-const int too_fine = 15;  // level of what asks for finer cells than there are: it is shaded
+const int too_fine = TOO_FINE;  // level of what asks for finer cells than there are: it is shaded
 
 uint cell_word(int level, ivec2 cell) { return uint(level) << 28 | uint(cell.y) << 14 | uint(cell.x); }
 int level_of(uint word) { return int(word >> 28); }

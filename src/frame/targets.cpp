@@ -31,6 +31,10 @@ constexpr size_t cells_below(uint32_t level) { return ((size_t(1) << 2 * level) 
 // More cells than this many for each covered pixel would hold one pixel each; and all tables together are bounded.
 constexpr uint64_t cells_a_pixel = 4, most_cells = 1u << 22;
 
+// A pixel's cell: shaders/mirrors.glsl, cell_word.
+uint32_t column_of(uint32_t word) { return word & 0x3fff; }
+uint32_t row_of(uint32_t word) { return word >> 14 & 0x3fff; }
+
 uint32_t finest_level(size_t slots, uint64_t covered_pixels) {
     uint32_t level = MirrorCells::first_level;
     while (level < 10 && (uint64_t(1) << 2 * (level + 1)) <= cells_a_pixel * covered_pixels &&
@@ -58,16 +62,18 @@ MirrorCells::MirrorCells(const gl::Functions& gl, uint32_t width, uint32_t heigh
 
 uint32_t MirrorCells::tile_of(uint32_t word, uint32_t slot) {
     if (level_of(word) == too_fine) return slot * tiles;  // it is shaded, and asks for nothing
-    const uint32_t coarser = level_of(word) - first_level, x = word & 0x3fff, y = word >> 14 & 0x3fff;
-    return slot * tiles + ((y >> coarser) << first_level) + (x >> coarser);
+    const uint32_t coarser = level_of(word) - first_level;
+    return slot * tiles + ((row_of(word) >> coarser) << first_level) + (column_of(word) >> coarser);
 }
 
 size_t MirrorCells::index_of(uint32_t word, uint32_t slot) const {
-    const uint32_t x = word & 0x3fff, y = word >> 14 & 0x3fff;
-    return slot * cells_below(last_level + 1) + cells_below(level_of(word)) + (size_t(y) << level_of(word)) + x;
+    const uint32_t level = level_of(word);
+    return slot * cells_below(last_level + 1) + cells_below(level) + (size_t(row_of(word)) << level) + column_of(word);
 }
 
-std::string MirrorCells::definitions() const { return text("FIRST_LEVEL ", first_level, "\nLAST_LEVEL ", last_level); }
+std::string MirrorCells::definitions() const {
+    return text("FIRST_LEVEL ", first_level, "\nLAST_LEVEL ", last_level, "\nTOO_FINE ", too_fine);
+}
 
 size_t MirrorCells::bytes() const {
     return cells.bytes() + claims.buffer.bytes() + counts.buffer.bytes() + occupants.buffer.bytes() +
