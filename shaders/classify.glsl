@@ -5,7 +5,10 @@
 #if defined(INTERPOLATE_IMAGE)
 #include "parents.glsl"
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
+#if defined(SHARES_FOLLOW_VARIANCE)
 layout(binding = 1, r32f) readonly uniform image2D variances;
+#endif
+layout(binding = 4, rgba16) writeonly uniform image2D weights;  // of the parents
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
 #elif defined(INTERPOLATE_DIRECTIONS)
@@ -49,25 +52,26 @@ void shade(ivec2 at, uint material, int bin, bool former, bool witness) {
 
 float expected_at(ivec2 at) { return texelFetch(prediction, at, 0).g; }
 
-// Least level and largest variance over the blocks that meet at a lattice point: all that its parents enclose.
-void around_lattice_point(ivec2 at, int level, out int least, out float variance) {
+// Least level and, where shares follow it, largest variance over the blocks that meet at a lattice point: all that its parents enclose.
+void around_lattice_point(ivec2 at, int level, out int least, inout float variance) {
     ivec2 size = textureSize(materials, 0);
     ivec2 level_size = (size + (1 << level) - 1) >> level;
     ivec2 block = at >> level;
     uint low = 255u;
-    variance = 0.0;
     for (int corner = 0; corner < 4; ++corner) {
         ivec2 from = block - ivec2(corner & 1, corner >> 1);
         if (any(lessThan(from, ivec2(0))) || any(greaterThanEqual(from, level_size))) continue;
         from.y += int(pyramid_rows[level]);
         low = min(low, imageLoad(levels, from).r);
+#if defined(SHARES_FOLLOW_VARIANCE)
         variance = max(variance, imageLoad(variances, from).r);
+#endif
     }
     least = int(low);
 }
 
 // Whether the pixel may be interpolated: enough parents evenly around it, none of which (those at the far edges lie outside the
-// blocks around it) needs a finer spacing than theirs.
+// blocks around it) needs a finer spacing than theirs. Keeps their weights for that.
 bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     Parents parents = parents_of(at, level, pixel_level);
     if (!parents.balanced) return false;
@@ -77,6 +81,7 @@ bool has_sound_parents(ivec2 at, int level, float pixel_level) {
         if (int(imageLoad(levels, parents.at[corner]).r) <= level) return false;
         between += parents.weight[corner] * expected_at(parents.at[corner]);
     }
+    imageStore(weights, at, vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]));
     return abs(contradiction(expected_at(at), between)) <= tolerance;
 }
 
@@ -84,23 +89,19 @@ bool has_sound_parents(ivec2 at, int level, float pixel_level) {
 
 #if defined(PREDICTED)
 
-// Footprints leave little of a variance, the less the larger it is: of a cut, error was least where pixels have alike
-// (docs/decisions/0009).
-#if defined(SAMPLER_CUT)
-const float variance_power = 0.0;
-#else
-const float variance_power = 0.5;
-#endif
-
-// Log2 of the share of samples. Least error: the sum over pixels of area * variance / N is least for N proportional to
+// Log2 of the share of samples; a black pixel deserves least. Least error: the sum over pixels of area * variance / N is least for N proportional to
 // sqrt(area * variance), the area being the number of pixels for which the pixel stands. Constant variance (section 2.4):
-// N proportional to the variance.
+// N proportional to the variance. Footprints leave little of a variance, the less the larger it is: of a cut, error was least where
+// pixels have alike (docs/decisions/0009).
 int share(float variance, float area) {
     if (variance <= 0.0) return 0;
 #if defined(ALLOCATION_CONSTANT_VARIANCE)
     float octave = log2(variance);
 #else
-    float octave = variance_power * log2(variance) + 0.5 * log2(area);
+    float octave = 0.5 * log2(area);
+#if defined(SHARES_FOLLOW_VARIANCE)
+    octave += 0.5 * log2(variance);
+#endif
 #endif
     return clamp(int(round(octave * BINS_PER_OCTAVE)) + SHARE_ONE, 0, BINS - 1);
 }

@@ -1,15 +1,7 @@
-// Anisotropic bilateral weights of a pixel's parents (section 3.2). The lattice of level l holds the pixels whose
-// coordinates are multiples of 2^l; a pixel that is new on lattice l lies midway between two or four parents on
-// lattice l + 1.
-
+// Anisotropic bilateral weights of a pixel's parents (section 3.2).
+#include "lattice.glsl"
 #include "surface.glsl"
 layout(binding = 2) uniform usampler2D materials;
-
-// The finest lattice's level, 0 .. coarsest, on which a pixel first appears.
-int lattice_level(ivec2 at, int coarsest) {
-    int bits = at.x | at.y;
-    return bits == 0 ? coarsest : min(findLSB(uint(bits)), coarsest);
-}
 
 // Chords that leave a tangent plane by more than a quarter of their length bridge a fold, not a surface: on a sphere it
 // is the chord of half a radian, over which shading cannot be linear. Both ends' planes count: at a silhouette the near
@@ -31,8 +23,6 @@ struct Parents {
 
 Parents parents_of(ivec2 at, int level, float pixel_level) {
     ivec2 size = textureSize(materials, 0);
-    int step = 1 << level;
-    bvec2 odd = notEqual((at >> level) & 1, ivec2(0));
     Surface here = surface_at(at);
     uint material = texelFetch(materials, at, 0).r;
     float cosine = max(dot(here.normal, towards_eye(at)), least_cosine);
@@ -43,12 +33,10 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
     float available = 0.0, all = 0.0, sum = 0.0;
     vec2 centre = vec2(0);
     for (int corner = 0; corner < 4; ++corner) {
-        ivec2 sign = ivec2(corner & 1, corner >> 1) * 2 - 1;
-        ivec2 offset = ivec2(odd.x ? sign.x : 0, odd.y ? sign.y : 0) * step;
-        ivec2 parent = at + offset;
+        ivec2 offset = towards_parent(at, level, corner), parent = at + offset;
         result.at[corner] = parent;
         result.weight[corner] = 0.0;
-        if ((!odd.x && sign.x > 0) || (!odd.y && sign.y > 0)) continue;  // midway between two: each once
+        if (is_repeated(at, level, corner)) continue;
         all += 1.0;
         if (any(lessThan(parent, ivec2(0))) || any(greaterThanEqual(parent, size))) continue;
         if (texelFetch(materials, parent, 0).r != material) continue;
@@ -65,7 +53,7 @@ Parents parents_of(ivec2 at, int level, float pixel_level) {
         result.weight[corner] = weight;
         available += g_z;
         sum += weight;
-        centre += weight * vec2(offset) / float(step);
+        centre += weight * vec2(offset) / float(1 << level);
     }
     result.balanced = available >= 0.5 * all && sum > 0.0 && length(centre) <= centre_tolerance * sum;
     if (sum > 0.0)

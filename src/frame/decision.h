@@ -10,7 +10,7 @@ inline bool is_interpolated(uint8_t decision) { return decision == 1; }
 inline bool is_shaded(uint8_t decision) { return (decision & ~witness_bit) >= first_bin; }
 inline bool is_witness(uint8_t decision) { return (decision & witness_bit) != 0; }
 
-// The lattice on which a pixel first appears: spacing 2^level (shaders/parents.glsl).
+// The lattice on which a pixel first appears: spacing 2^level (shaders/lattice.glsl).
 inline uint32_t lattice_level(uint32_t x, uint32_t y, uint32_t coarsest) {
     uint32_t level = 0;
     while (level < coarsest && ((x | y) >> level & 1) == 0) ++level;

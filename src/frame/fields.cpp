@@ -119,20 +119,24 @@ const std::vector<Frame::FieldName>& Frame::field_names() {
     return names;
 }
 
-// Frames that do not interpolate in the image need no pyramids: theirs are made when they are asked for, of the bandwidth as it is.
+// Frames that do not interpolate in the image need no pyramids, nor do those whose shares do not follow variance need that one: theirs
+// are made when they are asked for, of the bandwidth as it is.
 HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& material) const {
     const Result& r = result();
     std::optional<Pyramids> made;
-    if (!r.prediction->pyramids) {
-        made.emplace(device_->gl(), width_, height_, r.settings.coarsest_level());
+    const bool variances = name == "variance_pyramid";
+    if (!r.prediction->pyramids || (variances && !r.prediction->pyramids->variances)) {
+        const uint32_t coarsest = r.settings.coarsest_level();
+        made.emplace(device_->gl(), width_, height_, coarsest, variances);
         Forecast forecast;
         forecast.mean_radiance = r.mean_radiance;
         const std::vector<float> unscaled(size_t(tiles_along(width_)) * tiles_along(height_), 1);
-        passes::pyramids(*device_, forecast, unscaled, r.settings, r.gbuffer, width_, height_, *r.prediction, *made);
+        passes::pyramids(*device_, forecast, unscaled, r.settings, passes::covered(device_->gl(), r.gbuffer, width_, height_, coarsest), width_, height_,
+                         *r.prediction, *made);
     }
     const Pyramids& pyramids = made ? *made : *r.prediction->pyramids;
     const size_t count = size_t(width_) * pyramids.height;
-    if (name == "variance_pyramid")
+    if (variances)
         return HostArray::of(LB_TYPE_FLOAT32, {pyramids.height, width_}, "", read_floats(pyramids.variances, GL_RED, count, 1));
     std::vector<uint8_t> levels = read_bytes(pyramids.levels, count);
     if (name == "level_pyramid") return HostArray::of(LB_TYPE_UINT8, {pyramids.height, width_}, "log2(pixel)", std::move(levels));

@@ -170,7 +170,7 @@ void Frame::prepare_interpolation(Job* job, const Forecast& forecast) const {
         own.set_choice("interpolation", "image");
         next.prediction->mirrors.reset();
     }
-    next.prediction->pyramids.emplace(device_->gl(), width_, height_, own.coarsest_level());
+    next.prediction->pyramids.emplace(device_->gl(), width_, height_, own.coarsest_level(), own.shares_follow_variance());
 }
 
 // How fine the bandwidth times the scales that control has chosen asks pixels to be shaded.
@@ -181,10 +181,10 @@ void Frame::choose_levels(Job* job, const Control& control, const Forecast& fore
     const auto [least, most] = std::minmax_element(control.scales().begin(), control.scales().end());
     const std::string scaled = text(", bandwidth times ", *least, " to ", *most);
     if (next.prediction->pyramids) {
-        passes::pyramids(*device_, forecast, control.scales(), settings, next.gbuffer, width_, height_, *next.prediction,
+        passes::pyramids(*device_, forecast, control.scales(), settings, job->covered, width_, height_, *next.prediction,
                          *next.prediction->pyramids);
-        next.plan.finished("pyramids", "least level and largest variance of each block" + scaled, next.prediction->pyramids->bytes(),
-                           pixels(), "pixels");
+        const char* made = next.prediction->pyramids->variances ? "least level and largest variance" : "least level";
+        next.plan.finished("pyramids", made + std::string(" of each block") + scaled, next.prediction->pyramids->bytes(), pixels(), "pixels");
         return;
     }
     passes::mirror_cells(*device_, control.scales(), witnesses, settings, job->slot_of, job->covered, next.gbuffer, next.shading,

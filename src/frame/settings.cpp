@@ -176,6 +176,10 @@ Variance Settings::variance() const { return values_[place_variance] == 0 ? Vari
 Allocation Settings::allocation() const {
     return values_[place_allocation] == 0 ? Allocation::least_error : Allocation::constant_variance;
 }
+bool Settings::shares_follow_variance() const {
+    return sampler() != Sampler::cut || allocation() == Allocation::constant_variance;
+}
+
 Sequence Settings::sequence() const {
     return values_[place_sequence] == 0 && method() == Method::adaptive ? Sequence::lattice : Sequence::random;
 }

@@ -40,6 +40,7 @@ public:
     Allocation allocation() const;
     Sequence sequence() const;
     Sampler sampler() const;
+    bool shares_follow_variance() const;  // or all pixels of one spacing have alike, as errs least under a cut (docs/decisions/0009)
     Lookup brdf_lookup() const;
     Lookup environment_lookup() const;
     double target_error() const;  // 0: none

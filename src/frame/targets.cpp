@@ -14,13 +14,14 @@ GBuffer::GBuffer(const gl::Functions& gl, uint32_t width, uint32_t height)
       material(Texture::image(gl, GL_R8UI, width, height)),
       depth(Texture::image(gl, GL_DEPTH_COMPONENT32F, width, height)) {}
 
-Pyramids::Pyramids(const gl::Functions& gl, uint32_t width, uint32_t picture_height, uint32_t coarsest_level) {
+Pyramids::Pyramids(const gl::Functions& gl, uint32_t width, uint32_t picture_height, uint32_t coarsest_level, bool with_variances) {
     for (uint32_t level = 0, h = picture_height; level <= coarsest_level; ++level, h = (h + 1) / 2) {
         rows.push_back(height);
         height += h;
     }
     levels = Texture::image(gl, GL_R8UI, width, height);
-    variances = Texture::image(gl, GL_R32F, width, height);
+    if (with_variances) variances = Texture::image(gl, GL_R32F, width, height);
+    weights = Texture::image(gl, GL_RGBA16, width, picture_height);
 }
 
 namespace {

@@ -24,12 +24,13 @@ struct GBuffer {
 // For interpolation in the image. Pyramids are pictures with each level below the finer one; rows[l] is where level l starts.
 struct Pyramids {
     gl::Texture levels;     // R8UI; 255: nothing seen
-    gl::Texture variances;  // R32F: relative
+    gl::Texture variances;  // R32F: relative; none where nothing asks for it
+    gl::Texture weights;    // RGBA16, of the picture's size: of the parents of each pixel that may be interpolated
     std::vector<uint32_t> rows;
     uint32_t height = 0;  // of all levels
 
-    Pyramids(const gl::Functions& gl, uint32_t width, uint32_t height, uint32_t coarsest_level);
-    size_t bytes() const { return levels.bytes() + variances.bytes(); }
+    Pyramids(const gl::Functions& gl, uint32_t width, uint32_t height, uint32_t coarsest_level, bool with_variances);
+    size_t bytes() const { return levels.bytes() + variances.bytes() + weights.bytes(); }
 };
 
 // A table that is written as storage or as an image, and read as a texture.

@@ -11,7 +11,7 @@ size_t texel_bytes(GLenum format) {
     switch (format) {
         case GL_R8UI: return 1;
         case GL_R32F: case GL_R32UI: case GL_RG16F: case GL_DEPTH_COMPONENT32F: return 4;
-        case GL_RG32F: case GL_RG32UI: case GL_RGBA16F: return 8;
+        case GL_RG32F: case GL_RG32UI: case GL_RGBA16F: case GL_RGBA16: return 8;
         case GL_RGBA32F: return 16;
         default: throw Error(LB_ERROR_INTERNAL, text("texel size of OpenGL format ", format, " is not known"));
     }

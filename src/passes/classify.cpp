@@ -17,7 +17,7 @@ std::string definitions(const Settings& settings, const Prediction* prediction) 
     if (settings.coarsest_level() > 0 && prediction->pyramids)
         result += text("\nINTERPOLATE_IMAGE\nPYRAMID_LEVELS ", prediction->pyramids->rows.size());
     if (settings.coarsest_level() > 0 && prediction->mirrors) result += "\nINTERPOLATE_DIRECTIONS\n" + prediction->mirrors->definitions();
-    if (settings.sampler() == Sampler::cut) result += "\nSAMPLER_CUT";
+    if (settings.shares_follow_variance()) result += "\nSHARES_FOLLOW_VARIANCE";
     if (settings.allocation() == Allocation::constant_variance) result += "\nALLOCATION_CONSTANT_VARIANCE";
     return result;
 }
@@ -72,7 +72,8 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
         program.set("coarsest_level", int32_t(settings.coarsest_level()));
         program.set_array("pyramid_rows", pyramids.rows.data(), int32_t(pyramids.rows.size()));
         bind_image(gl, 0, pyramids.levels, GL_R8UI);
-        bind_image(gl, 1, pyramids.variances, GL_R32F);
+        bind_image(gl, 4, pyramids.weights, GL_RGBA16);
+        if (settings.shares_follow_variance()) bind_image(gl, 1, pyramids.variances, GL_R32F);
     }
     if (prediction != nullptr && prediction->mirrors) {
         bind_texture(gl, 8, prediction->mirrors->cells);

@@ -5,7 +5,7 @@
 
 namespace lightband::passes {
 
-// Sorted by the lattice on which a pixel first appears (shaders/parents.glsl), coarsest first.
+// Sorted by the lattice on which a pixel first appears (shaders/lattice.glsl), coarsest first.
 struct Covered {
     struct Part {
         uint32_t first = 0, count = 0;

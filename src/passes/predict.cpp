@@ -114,31 +114,38 @@ double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Predicti
 }
 
 void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales, const Settings& settings,
-              const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target) {
+              const Covered& covered, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target) {
     const gl::Functions& gl = device.gl();
+    const std::string definitions = target.variances ? "VARIANCES" : "";
+    const auto bind = [&](const gl::Program& program) {
+        program.use();
+        bind_image(gl, 0, target.levels, GL_R8UI);
+        if (target.variances) bind_image(gl, 1, target.variances, GL_R32F);
+    };
+    const uint8_t nothing_seen = 255;
+    gl.ClearTexImage(target.levels.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &nothing_seen);
+    if (target.variances) gl.ClearTexImage(target.variances.name(), 0, GL_RED, GL_FLOAT, nullptr);
+
     const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.size(), 1) * sizeof(float), scales.data());
     const gl::Texture scales_texture = gl::Texture::of_buffer(gl, GL_R32F, scale_buffer);
-    uint32_t w = width, h = height;
-    for (size_t level = 0; level < target.rows.size(); ++level) {
-        const gl::Program& program = device.compute("pyramid", level == 0 ? text("FIRST_LEVEL\nTILE_SIDE ", tile_side) : "");
-        program.set("finer_size", int32_t(w), int32_t(h));
-        if (level == 0) {
-            program.set("mean_radiance", float(forecast.mean_radiance));
-            program.set("coarsest_level", int32_t(settings.coarsest_level()));
-        } else {
-            program.set("finer_row", int32_t(target.rows[level - 1]));
-            program.set("row", int32_t(target.rows[level]));
-            w = (w + 1) / 2;
-            h = (h + 1) / 2;
-        }
-        program.use();
-        bind_texture(gl, 0, prediction.prediction);
-        bind_texture(gl, 1, prediction.bandwidth);
-        bind_texture(gl, 2, gbuffer.material);
-        bind_texture(gl, 3, scales_texture);
-        bind_image(gl, 0, target.levels, GL_R8UI);
-        bind_image(gl, 1, target.variances, GL_R32F);
-        dispatch_pixels(gl, w, h);
+    const gl::Program& finest = device.compute("levels", text("TILE_SIDE ", tile_side, "\n") + definitions);
+    bind(finest);
+    finest.set("coarsest_level", int32_t(settings.coarsest_level()));
+    finest.set("mean_radiance", float(forecast.mean_radiance));
+    bind_texture(gl, 0, prediction.prediction);
+    bind_texture(gl, 1, prediction.bandwidth);
+    bind_texture(gl, 2, scales_texture);
+    dispatch_covered(gl, finest, covered, covered.all);
+
+    const gl::Program& coarser = device.compute("pyramid", definitions);
+    bind(coarser);
+    for (size_t level = 1; level < target.rows.size(); ++level) {
+        coarser.set("finer_size", int32_t(width), int32_t(height));
+        coarser.set("finer_row", int32_t(target.rows[level - 1]));
+        coarser.set("row", int32_t(target.rows[level]));
+        width = (width + 1) / 2;
+        height = (height + 1) / 2;
+        dispatch_pixels(gl, width, height);
     }
 }
 

@@ -25,9 +25,9 @@ Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& 
 double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t height, double scale,
                       uint32_t coarsest_level);
 
-// Levels (eq. 11) and relative variances with their min and max pyramids (shaders/pyramid.glsl). scales: factor on the bandwidth in
-// each tile of the picture (frame/tiles.h).
+// Levels (eq. 11) and, where target holds them, relative variances with their min and max pyramids (shaders/levels.glsl,
+// pyramid.glsl). scales: factor on the bandwidth in each tile of the picture (frame/tiles.h).
 void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales, const Settings& settings,
-              const GBuffer& gbuffer, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target);
+              const Covered& covered, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target);
 
 }  // namespace lightband::passes

@@ -77,6 +77,17 @@ def test_where_interpolation_does_not_pay_nothing_is_interpolated(context, spher
     assert rendered(context, sphere, target_error=0.1).stats.shaded_pixels < frame.stats.shaded_pixels
 
 
+def test_variances_are_gathered_where_shares_follow_them(context, sphere):
+    """Under a cut all pixels of one spacing have alike; the field is there all the same."""
+    shared, alike = (rendered(context, sphere, samples=16, bandwidth_scale=1, allocation=allocation)
+                     for allocation in ("constant_variance", "least_error"))
+    rows = shared.level_pyramid.shape[0]
+    lists = 4 * (shared.stats.shaded_pixels - alike.stats.shaded_pixels)
+    assert shared.stats.device_bytes - alike.stats.device_bytes == 4 * rows * 64 + lists
+    np.testing.assert_array_equal(shared.variance_pyramid, alike.variance_pyramid)
+    assert shared.variance_pyramid.max() > 0
+
+
 def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):
     """The map's directions, 65,536 of 32 bytes, and 64 clusters of as many are made when they are first asked for."""
     before = rendered(context, sphere, samples=16, coarsest_level=0, sampler="brdf").stats.device_bytes
