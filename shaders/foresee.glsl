@@ -18,7 +18,7 @@ void main() {
     if (error > tolerance) {
         atomicAdd(tiles[tile].z, 1u);
     } else {
-        atomicAdd(tiles[tile].x, uint(min(error * error, 1.0) * units));
+        atomicAdd(tiles[tile].x, uint(round(error * error * units)));
         atomicAdd(tiles[tile].y, 1u);
     }
 }

@@ -44,6 +44,19 @@ inline void require(const void* argument, const char* name) {
     if (argument == nullptr) throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, " is NULL"));
 }
 
+// Objects hold OpenGL's: whoever lets go of one last, a call that another thread released it from included, it ends under its device's
+// guard. Of a device that cannot be made current nothing is left to be freed.
+template <class Object, class... Arguments>
+std::shared_ptr<Object> make(Arguments&&... arguments) {
+    return {new Object(std::forward<Arguments>(arguments)...), [](Object* object) {
+                try {
+                    const gl::Device::Guard guard(object->device());
+                    delete object;
+                } catch (const Error&) {
+                }
+            }};
+}
+
 template <class Handle, class Object>
 void give(HandleTable<Object>& table, std::shared_ptr<Object> object, Handle* out) {
     *out = reinterpret_cast<Handle>(table.insert(std::move(object)));

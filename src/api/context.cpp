@@ -19,22 +19,10 @@ lb_result retain(HandleTable<Object>& table, const void* handle) {
     return border([&] { table.retain(handle); });
 }
 
-const gl::DevicePtr& device_of(const Context& context) { return context.device; }
-template <class Object>
-const gl::DevicePtr& device_of(const Object& object) {
-    return object.device();
-}
-
-// The last reference goes away with the device's context current, for the OpenGL objects that go with it.
 template <class Object>
 lb_result release(HandleTable<Object>& table, const void* handle) {
     if (handle == nullptr) return LB_OK;
-    return border([&] {
-        std::shared_ptr<Object> object = table.release(handle);
-        if (object == nullptr) return;
-        const gl::Device::Guard guard(device_of(*object));
-        object.reset();
-    });
+    return border([&] { table.release(handle); });
 }
 
 }  // namespace
@@ -83,9 +71,6 @@ lb_result lb_scene_release(lb_scene scene) { return release(scenes(), scene); }
 lb_result lb_frame_retain(lb_frame frame) { return retain(frames(), frame); }
 lb_result lb_frame_release(lb_frame frame) { return release(frames(), frame); }
 lb_result lb_buffer_retain(lb_buffer buffer) { return retain(arrays(), buffer); }
-lb_result lb_buffer_release(lb_buffer buffer) {
-    if (buffer == nullptr) return LB_OK;
-    return border([&] { arrays().release(buffer); });
-}
+lb_result lb_buffer_release(lb_buffer buffer) { return release(arrays(), buffer); }
 
 }  // extern "C"

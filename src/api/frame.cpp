@@ -13,7 +13,7 @@ extern "C" {
 lb_result lb_frame_create(lb_context context, uint32_t width, uint32_t height, lb_frame* frame) {
     return border([&] {
         require(frame, "frame");
-        give(frames(), std::make_shared<Frame>(contexts().get(context, "context")->device, width, height), frame);
+        give(frames(), make<Frame>(contexts().get(context, "context")->device, width, height), frame);
     });
 }
 

@@ -11,15 +11,15 @@ using namespace lightband::api;
 
 namespace {
 
-// make: reads or computes the reflectance, without the device.
-template <class Make>
-lb_result create_brdf(lb_context context, lb_brdf* brdf, Make make) {
+// read: reads or computes the reflectance, without the device.
+template <class Read>
+lb_result create_brdf(lb_context context, lb_brdf* brdf, Read read) {
     return border([&] {
         require(brdf, "brdf");
         const auto owner = contexts().get(context, "context");
-        Brdf reflectance = make(*owner);
+        Brdf reflectance = read(*owner);
         const gl::Device::Guard guard(owner->device);
-        give<lb_brdf, const Material>(materials(), std::make_shared<const Material>(owner->device, std::move(reflectance)), brdf);
+        give<lb_brdf>(materials(), make<const Material>(owner->device, std::move(reflectance)), brdf);
     });
 }
 
@@ -47,25 +47,25 @@ void check_map_size(uint32_t width, uint32_t height) {
         throw Error(LB_ERROR_INVALID_ARGUMENT, text("height is ", height, "; it must be 1 .. ", io::max_map_height));
 }
 
-template <class Make>
-lb_result create_environment(lb_context context, lb_environment* environment, Make make) {
+template <class Read>
+lb_result create_environment(lb_context context, lb_environment* environment, Read read) {
     return border([&] {
         require(environment, "environment");
         const auto owner = contexts().get(context, "context");
-        RgbImage map = make(*owner);
+        RgbImage map = read(*owner);
         const gl::Device::Guard guard(owner->device);
-        give<lb_environment, const Light>(lights(), std::make_shared<const Light>(owner->device, std::move(map)), environment);
+        give<lb_environment>(lights(), make<const Light>(owner->device, std::move(map)), environment);
     });
 }
 
-template <class Make>
-lb_result create_mesh(lb_context context, lb_mesh* mesh, Make make) {
+template <class Read>
+lb_result create_mesh(lb_context context, lb_mesh* mesh, Read read) {
     return border([&] {
         require(mesh, "mesh");
         const auto owner = contexts().get(context, "context");
-        const Triangles triangles = make();
+        const Triangles triangles = read();
         const gl::Device::Guard guard(owner->device);
-        give<lb_mesh, const Mesh>(meshes(), std::make_shared<const Mesh>(owner->device, triangles), mesh);
+        give<lb_mesh>(meshes(), make<const Mesh>(owner->device, triangles), mesh);
     });
 }
 
@@ -235,7 +235,7 @@ lb_result lb_mesh_info(lb_mesh mesh, lb_mesh_stats* stats) {
 lb_result lb_scene_create(lb_context context, lb_scene* scene) {
     return border([&] {
         require(scene, "scene");
-        give(scenes(), std::make_shared<Scene>(contexts().get(context, "context")->device), scene);
+        give(scenes(), make<Scene>(contexts().get(context, "context")->device), scene);
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <thread>
 
 #include "bandwidth/octahedral.h"
@@ -83,10 +84,11 @@ LobeBandwidth lobe_bandwidth(const Brdf& brdf, BandRule rule) {
             analyse_view(brdf, rule, view, &result.values[size_t(view) * lobe]);
     };
     const int threads = std::max(1, std::min(int(std::thread::hardware_concurrency()), LobeBandwidth::views));
-    std::vector<std::thread> workers;
-    for (int i = 1; i < threads; ++i) workers.emplace_back(part, i, threads);
+    // What one throws, get() throws here; a thread that cannot be had is done without.
+    std::vector<std::future<void>> others;
+    for (int i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async | std::launch::deferred, part, i, threads));
     part(0, threads);
-    for (std::thread& worker : workers) worker.join();
+    for (std::future<void>& other : others) other.get();
     return result;
 }
 

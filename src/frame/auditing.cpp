@@ -144,8 +144,7 @@ void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32
 bool Frame::audit_again(Job* job) const {
     const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
     if (settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0) return false;
-    const bool over_directions =
-        job->settings.coarsest_level() > 0 && job->settings.interpolation() == Interpolation::directions;
+    const bool over_directions = job->result->prediction->mirrors.has_value();
     if (over_directions ? job->audit.samples >= planned : job->audit.knows_better(planned)) return false;
     look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
     job->result->shading.clear(device_->gl());

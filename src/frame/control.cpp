@@ -101,9 +101,11 @@ void Pace::learn(const RoundCost& cost, bool first_of_two) {
 }
 
 Control::Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed)
-    : settings_(settings), forecast_(forecast), pace_(pace) {
+    : settings_(settings), forecast_(forecast), target_(settings.target_error()), pace_(pace) {
     interpolates_ = settings.coarsest_level() > 0;
     share_ = interpolation_share;
+    const bool known = forecast.probed_error > 0;
+    if (settings.time_budget() > 0 && !(known && first_cost(forecast.covered, 0) <= light(elapsed))) target_ = 0;
     // Half of the pixels at most, or small frames would not be interpolated.
     witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), smoothness_of(settings).cheap_witnesses, 0.5);
     scales_.assign(tiles, float(first_scale(elapsed)));
@@ -113,16 +115,15 @@ double Control::first_scale(double elapsed) {
     if (settings_.bandwidth_scale() > 0) return settings_.bandwidth_scale();
     const Smoothness& smoothness = smoothness_of(settings_);
     double expected = smoothness.expected;
-    if (settings_.target_error() > 0) {
-        allowed_interpolation_ = std::sqrt(interpolation_share) * aim * settings_.target_error();
+    if (target_ > 0) {
+        allowed_interpolation_ = std::sqrt(interpolation_share) * aim * target_;
     } else {
         // With samples shared for least error, the noise of a frame is the mean deviation over the root of the mean count.
         double samples = settings_.samples();
         if (settings_.time_budget() > 0) {
             // A tenth of the time at least: where there is none left, the coarsest levels serve best.
-            const double left = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.1 * settings_.time_budget());
-            const double each = left * pace_.samples_per_millisecond / std::max(forecast_.covered, 1.0);
-            samples = std::max(each - Pace::pixel_samples, fewest_in_time);
+            const double least = 0.1 * settings_.time_budget() * pace_.samples_per_millisecond;
+            samples = std::max(std::max(light(elapsed), least) / std::max(forecast_.covered, 1.0) - Pace::pixel_samples, fewest_in_time);
         } else {
             expected = smoothness.unmeasured;
         }
@@ -163,7 +164,7 @@ std::pair<double, double> Control::best_share(const Foresight& foresight) const 
 
 bool Control::spares(const std::vector<ForeseenTile>& tiles, double in_image) const {
     const Foresight foresight(tiles, smoothness_of(settings_).power);
-    if (!(foresight.left_by_one > 0) || !(settings_.target_error() > 0) || !(forecast_.probed_error > 0)) return false;
+    if (!(foresight.left_by_one > 0) || !(target_ > 0) || !(forecast_.probed_error > 0)) return false;
     const double shaded = std::min(beside_lattices * in_image, forecast_.covered);
     const double other = std::min(first_cost(shaded, interpolation_share), first_cost(forecast_.covered, 0));
     return best_share(foresight).second + interpolated_samples * forecast_.covered < clearly_less * other;
@@ -172,9 +173,9 @@ bool Control::spares(const std::vector<ForeseenTile>& tiles, double in_image) co
 void Control::follow(const std::vector<ForeseenTile>& tiles) {
     const Foresight foresight(tiles, smoothness_of(settings_).power);
     if (!(foresight.left_by_one > 0) || !(allowed_interpolation_ > 0)) return;
-    if (settings_.target_error() > 0) share_ = best_share(foresight).first;
+    if (target_ > 0) share_ = best_share(foresight).first;
     const double allowed =
-        settings_.target_error() > 0 ? allowed_squares(share_) : std::pow(allowed_interpolation_, 2) * forecast_.covered;
+        target_ > 0 ? allowed_squares(share_) : std::pow(allowed_interpolation_, 2) * forecast_.covered;
     const double factor = foresight.factor_for(allowed);
     for (size_t i = 0; i < tiles.size(); ++i) {
         if (!(tiles[i].squares > 0)) continue;
@@ -186,12 +187,17 @@ void Control::follow(const std::vector<ForeseenTile>& tiles) {
 double Control::left_by_finer(double times) const { return std::pow(times, -2 * smoothness_of(settings_).power); }
 
 double Control::tolerance() const {
-    if (settings_.target_error() > 0)
-        return std::clamp(smoothness_of(settings_).tolerance * settings_.target_error(), least_tolerance, most_tolerance);
+    if (target_ > 0)
+        return std::clamp(smoothness_of(settings_).tolerance * target_, least_tolerance, most_tolerance);
     return std::max(most_tolerance, expected_noise_);
 }
 
-double Control::goal() const { return std::pow(aim * settings_.target_error(), 2); }
+// Samples that there is time for, those included that a pixel costs before its first one.
+double Control::light(double elapsed) const {
+    return std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0) * pace_.samples_per_millisecond;
+}
+
+double Control::goal() const { return std::pow(aim * target_, 2); }
 double Control::share_of_interpolation() const { return interpolates_ ? share_ : 0; }
 double Control::noise_allowed() const { return (1 - share_of_interpolation()) * goal(); }
 
@@ -217,13 +223,11 @@ bool Control::reconsider(const Histogram& histogram, double elapsed) {
     if (round_ > 0 || settings_.bandwidth_scale() > 0) return false;
     const double shaded = total(histogram);
     const bool interpolated = interpolates_;
-    if (settings_.target_error() > 0) {
+    if (target_ > 0) {
         interpolates_ = interpolated && pays(shaded);
     } else if (settings_.time_budget() > 0) {
-        // Samples that there is time for, those included that a pixel costs before its first one.
-        const double light = std::max(settings_.time_budget() - elapsed - pace_.round_milliseconds, 0.0) * pace_.samples_per_millisecond;
-        if (coarsen(shaded, light)) return true;
-        interpolates_ = interpolated && pays_in_time(shaded, light);
+        if (coarsen(shaded, light(elapsed))) return true;
+        interpolates_ = interpolated && pays_in_time(shaded, light(elapsed));
     }
     return interpolated != interpolates_;
 }
@@ -252,7 +256,7 @@ bool Control::coarsen(double shaded, double light) {
 const Budget& Control::plan(const Histogram& histogram, double elapsed) {
     ++round_;
     const double pixels = shaded_ = std::max(total(histogram), 1.0);
-    if (settings_.target_error() > 0) {
+    if (target_ > 0) {
         budget_ = plan_noise(histogram, predicted_goal(histogram), settings_.max_samples(), settings_.allocation());
     } else if (settings_.time_budget() > 0) {
         const double mean = time_to_shade(elapsed) * pace_.samples_per_millisecond / pixels - Pace::pixel_samples;
@@ -269,9 +273,12 @@ const Budget& Control::plan_further(const std::vector<DrawnGroup>& drawn, const 
     ++round_;
     shaded_ = total(fresh);
     for (const DrawnGroup& group : drawn) shaded_ += group.pixels;
-    if (!(settings_.target_error() > 0))
-        budget_ = replan_cost(drawn, fresh, time_to_shade(elapsed) * pace_.samples_per_millisecond, Pace::pixel_samples,
-                              settings_.max_samples());
+    if (!(settings_.time_budget() > 0)) return budget_;
+    // All that there is time for; or what the error needs, where that is less.
+    const double most = time_to_shade(elapsed) * pace_.samples_per_millisecond;
+    const Redrawing needed = redrawing(drawn, fresh, budget_);
+    if (!(target_ > 0) || needed.samples + Pace::pixel_samples * needed.pixels > most)
+        budget_ = replan_cost(drawn, fresh, most, Pace::pixel_samples, settings_.max_samples());
     return budget_;
 }
 
@@ -350,15 +357,15 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     const bool late = out_of_time(cost);
     if (target <= 0 && settings_.time_budget() <= 0) return false;
     if (late || round_ == most_rounds) return false;
-    if (target <= 0) {
-        if (round_ > 1) return false;
-        improve_levels(estimate, interpolation_share * first_part * estimate.shading(), 1);  // of what the rest of the time will leave
-        return true;
-    }
     // A pixel that one bright sample made dominates what it is compared with: it is drawn anew rather than believed.
     const double seen = estimate.shading() + estimate.interpolation + caution * estimate.noise_deviation;
     const double careful = seen + caution * std::hypot(estimate.interpolation_deviation, estimate.bias_deviation);
     if (std::sqrt(careful) <= good_enough * target || std::sqrt(seen) <= near_enough * target) return false;
+    if (!(target_ > 0)) {
+        if (round_ > 1) return false;
+        improve_levels(estimate, interpolation_share * first_part * estimate.shading(), 1);  // of what the rest of the time will leave
+        return true;
+    }
     choose_witnesses(estimate);
     const double goal = this->goal(), share = share_of_interpolation(), shading_allowed = noise_allowed();
     // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again. What they may have seen

@@ -83,6 +83,7 @@ private:
         double factor_for(double squares) const;
         double shaded_at(double factor) const;
     };
+    double light(double elapsed) const;
     double allowed_squares(double share) const;
     std::pair<double, double> best_share(const Foresight& foresight) const;
     bool improve_levels(const ErrorEstimate& estimate, double allowed, double doubt);
@@ -102,6 +103,8 @@ private:
 
     const Settings& settings_;
     const Forecast forecast_;
+    // The error that is asked for; 0: time governs, where no error is asked for, or none that shading every pixel is known to reach in time.
+    double target_;
     std::vector<float> scales_;
     double witnesses_;
     bool interpolates_;

@@ -97,6 +97,30 @@ void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, do
     estimate->bias_deviation = bias.deviation;
 }
 
+// Squares relative to each pixel's scale, summed over the covered pixels: of the replicates' spreads, of the means' variances, and of
+// those variances.
+struct NoiseSums {
+    double covered = 0, spreads = 0, variances = 0, squares = 0;
+
+    NoiseSums(const RoundPixels& pixels, double mean_luminance) {
+        for (size_t i = 0; i < pixels.material.size(); ++i) {
+            if (pixels.material[i] == 0) continue;
+            ++covered;
+            const double scale = scale_of(pixels, i, mean_luminance);
+            if (!(scale > 0)) continue;  // a frame without light has no error
+            const double spread = pixels.spread[4 * i] / scale, variance = variance_of_mean(pixels, i) / (scale * scale);
+            spreads += spread * spread;
+            variances += variance;
+            squares += variance * variance;
+        }
+    }
+
+    void tell(ErrorEstimate* estimate) const {
+        estimate->noise = estimate->stratification * variances / covered;
+        estimate->noise_deviation = estimate->stratification * std::sqrt(squares) / covered;
+    }
+};
+
 }  // namespace
 
 double scale_of(double shown, double expected, double mean_luminance) {
@@ -127,30 +151,21 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
     result.slots.resize(slots);
     result.mean_luminance = mean_luminance(pixels);
     result.tiles.resize(tiles.count);
-    double spreads = 0, variances = 0, squares = 0, covered = 0;
     for (size_t i = 0; i < pixels.material.size(); ++i) {
         if (pixels.material[i] == 0) continue;
         ErrorEstimate::Slot& own = result.slots[slot_of[pixels.material[i] - 1u]];
         ++own.covered;
-        ++covered;
-        const double scale = scale_of(pixels, i, result.mean_luminance);
-        if (!(scale > 0)) continue;  // a frame without light has no error
-        const double spread = pixels.spread[4 * i] / scale;
-        spreads += spread * spread;
-        const double variance = variance_of_mean(pixels, i) / (scale * scale);
-        variances += variance;
-        squares += variance * variance;
         if (!is_interpolated(pixels.decision[i])) continue;
         ++own.interpolated;
         ++result.tiles[tiles.of[i]].interpolated;
     }
-    if (covered == 0) return result;
-    if (variances > 0) {
-        const double prior = prior_pixels * variances / covered;
-        result.stratification = (spreads + prior) / (variances + prior);
+    const NoiseSums sums(pixels, result.mean_luminance);
+    if (sums.covered == 0) return result;
+    if (sums.variances > 0) {
+        const double prior = prior_pixels * sums.variances / sums.covered;
+        result.stratification = (sums.spreads + prior) / (sums.variances + prior);
     }
-    result.noise = result.stratification * variances / covered;
-    result.noise_deviation = result.stratification * std::sqrt(squares) / covered;
+    sums.tell(&result);
     const std::vector<Audited> audited = held_against(pixels, audit, 1, result);
     const double truth = truth_of_spreads(pixels, audited);
     std::vector<WitnessSums> witnesses(slots);
@@ -175,18 +190,18 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         const double part = double(own.interpolated) / double(own.covered);
         own.interpolation = std::max(mean, 0.0) * part;
         own.interpolation_deviation = std::sqrt(std::max(witnesses[slot].squares / count - mean * mean, 0.0) / count) * part;
-        result.interpolation += own.interpolation * double(own.covered) / covered;
+        result.interpolation += own.interpolation * double(own.covered) / sums.covered;
         result.interpolation_deviation =
-            std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / covered);
+            std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / sums.covered);
     }
     add_bias(pixels, audited, truth, &result);
     return result;
 }
 
 void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
-    estimate->noise /= frames;
-    estimate->noise_deviation /= frames;
     estimate->stratification /= frames;
+    estimate->mean_luminance = mean_luminance(pixels);
+    if (const NoiseSums sums(pixels, estimate->mean_luminance); sums.covered > 0) sums.tell(estimate);
     const std::vector<Audited> audited = held_against(pixels, audit, frames, *estimate);
     add_bias(pixels, audited, truth_of_spreads(pixels, audited), estimate);
 }

@@ -60,7 +60,7 @@ struct ErrorEstimate {
 ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const Audit& audit,
                              const Tiles& tiles);
 
-// The same of the mean of several frames, from the estimate of one. pixels: those of one frame, but for the radiance.
+// The same of the mean of several frames, from the estimate of the first. pixels: those of one frame, but for the radiance.
 void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate);
 
 // The relative error to be expected of each pixel; 0 where nothing is seen. shape: how the squared error of interpolation is

@@ -41,7 +41,7 @@ double luminance_of(const float* rgb) { return luminance(Vec3(rgb[0], rgb[1], rg
 RoundPixels Frame::Result::read_round() const {
     const size_t count = size_t(stats.width) * stats.height;
     RoundPixels pixels;
-    pixels.radiance = read_floats(shading.radiance, GL_RGBA, count, 4);
+    pixels.radiance = accumulated.empty() ? read_floats(shading.radiance, GL_RGBA, count, 4) : accumulated;
     pixels.spread = read_floats(shading.spread, GL_RGBA, count, 4);
     if (prediction) pixels.expected = read_floats(prediction->prediction, GL_GREEN, count, 1);
     pixels.sample_count = read_words(shading.sample_count, count);

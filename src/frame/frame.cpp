@@ -183,12 +183,14 @@ void Frame::choose_levels(Job* job, const Control& control, const Forecast& fore
     if (next.prediction->pyramids) {
         passes::pyramids(*device_, forecast, control.scales(), settings, job->covered, width_, height_, *next.prediction,
                          *next.prediction->pyramids);
+        job->tiles = next.tiles();
         const char* made = next.prediction->pyramids->variances ? "least level and largest variance" : "least level";
         next.plan.finished("pyramids", made + std::string(" of each block") + scaled, next.prediction->pyramids->bytes(), pixels(), "pixels");
         return;
     }
     passes::mirror_cells(*device_, control.scales(), witnesses, settings, job->slot_of, job->covered, next.gbuffer, next.shading,
                          *next.prediction);
+    job->tiles = next.tiles();
     next.plan.finished("cells", "pixels by mirror direction, one of each cell to be shaded" + scaled, next.prediction->mirrors->bytes(),
                        job->covered.all.count, "pixels");
 }
@@ -198,11 +200,8 @@ void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
     const double witnesses = std::max(control->witnesses(), job->audited);
-    const bool interpolates = prediction != nullptr && job->settings.coarsest_level() > 0;
-    if (interpolates) {
-        choose_levels(job, *control, forecast, witnesses);
-        if (job->tiles.of.empty()) job->tiles = next.tiles();
-    }
+    const bool interpolates = prediction != nullptr && prediction->interpolates();
+    if (interpolates) choose_levels(job, *control, forecast, witnesses);
     job->counts = passes::classify(*device_, job->slot_of, next.slots, job->settings, witnesses, forecast, control->tolerance(),
                                    job->redraw.bins, width_, job->covered, next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", interpolates ? "shade or interpolate" : "every covered pixel is shaded",
@@ -217,7 +216,11 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
                              settings.allocation(), control->budget(), control->wanted_part());
     decide(job, control, forecast);
     if (control->reconsider(job->counts.bins(), next.plan.total_milliseconds())) {
-        if (!control->interpolates()) job->settings.set_number("coarsest_level", 0);
+        if (!control->interpolates()) {
+            next.prediction->pyramids.reset();
+            next.prediction->mirrors.reset();
+            job->tiles = {};
+        }
         decide(job, control, forecast);
     }
     const double elapsed = next.plan.total_milliseconds();
@@ -241,7 +244,7 @@ void Frame::shade(Job* job, const passes::Seeds& seeds) const {
     next.plan.finished("shade", text(list.pixels, " pixels in ", job->slots.materials.size(), " materials"),
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
                        list.total_samples, "samples");
-    if (!next.prediction || job->settings.coarsest_level() == 0) return;
+    if (!next.prediction || !next.prediction->interpolates()) return;
     passes::interpolate(*device_, settings, job->slot_of, job->covered, next.gbuffer, *next.prediction, next.shading);
     next.plan.finished(next.prediction->mirrors ? "interpolate" : "upsample",
                        "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count, "pixels");
@@ -319,9 +322,7 @@ void Frame::accumulate(Job* job) const {
         job->done += job->part;
     }
     for (double value : sum) next.accumulated.push_back(float(value / frames));
-    RoundPixels mean = next.read_round();
-    mean.radiance = next.accumulated;
-    average_error(mean, job->audit, frames, &next.estimate);
+    average_error(next.read_round(), job->audit, frames, &next.estimate);
 }
 
 lb_frame_stats Frame::stats() const {

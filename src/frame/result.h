@@ -20,10 +20,10 @@ struct Frame::Result {
     double mean_radiance = 0;  // as predicted, of the covered pixels
     ErrorEstimate estimate;
 
-    RoundPixels read_round() const;
+    RoundPixels read_round() const;  // of several frames, their mean
     Tiles tiles() const;
-    std::vector<float> areas() const;     // the number of pixels for which each shaded one stands; empty where nothing was predicted
-    std::vector<float> accumulated;  // RGBA means over several frames, where asked for
+    std::vector<float> areas() const;  // the number of pixels for which each shaded one stands; empty where nothing is interpolated
+    std::vector<float> accumulated;    // RGBA means over several frames, where asked for
     Plan plan;
     lb_frame_stats stats = LB_FRAME_STATS_INIT;
 };

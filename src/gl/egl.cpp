@@ -96,9 +96,7 @@ std::string hexadecimal(EGLint error) {
     return out.str();
 }
 
-}  // namespace
-
-EglContext::EglContext(const EglApi& api, void* display) : api_(api), display_(display) {
+void* create_context(const EglApi& api, void* display) {
     if (display == EGL_NO_DISPLAY) throw Error(LB_ERROR_DEVICE, "no display");
     EGLint major = 0, minor = 0;
     if (!api.Initialize(display, &major, &minor)) throw Error(LB_ERROR_DEVICE, hexadecimal(api.GetError()));
@@ -110,11 +108,19 @@ EglContext::EglContext(const EglApi& api, void* display) : api_(api), display_(d
     if (!api.BindAPI(EGL_OPENGL_API)) throw Error(LB_ERROR_DEVICE, "no OpenGL");
     const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    context_ = api.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    const EGLContext context = api.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
     const EGLint error = api.GetError();
     api.BindAPI(api_before);
-    if (context_ == EGL_NO_CONTEXT)
+    if (context == EGL_NO_CONTEXT)
         throw Error(LB_ERROR_DEVICE, text("no OpenGL 4.5 core context (", hexadecimal(error), ")"));
+    return context;
+}
+
+}  // namespace
+
+// The first is done once it holds the context: what the second throws ends in the destructor.
+EglContext::EglContext(const EglApi& api, void* display, void* context) : api_(api), display_(display), context_(context) {}
+EglContext::EglContext(const EglApi& api, void* display) : EglContext(api, display, create_context(api, display)) {
     load_functions();
 }
 
@@ -136,7 +142,7 @@ void EglContext::load_functions() {
 }
 
 EglContext::~EglContext() {
-    if (context_ != EGL_NO_CONTEXT) api_.DestroyContext(display_, context_);
+    api_.DestroyContext(display_, context_);
 }
 
 std::unique_ptr<EglContext> EglContext::create(uint32_t device) {

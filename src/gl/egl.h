@@ -37,12 +37,13 @@ public:
     };
 
 private:
+    EglContext(const EglApi& api, void* display, void* context);
     EglContext(const EglApi& api, void* display);
     void load_functions();
 
     const EglApi& api_;
     void* display_;
-    void* context_ = nullptr;
+    void* context_;
     Functions functions_;
     std::string name_;
     bool software_ = false;

@@ -22,7 +22,7 @@
 namespace lightband::io {
 namespace {
 
-// Decode on the calling thread: the library starts no threads of its own.
+// Decode on the calling thread.
 constexpr int no_threads = 0;
 
 // ---- Streams ------------------------------------------------------------------------------------

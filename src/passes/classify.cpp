@@ -14,9 +14,9 @@ std::string definitions(const Settings& settings, const Prediction* prediction) 
     std::string result = text("BINS ", budget_bins, "\nSHARE_ONE ", share_one, "\nBINS_PER_OCTAVE ", bins_per_octave);
     if (prediction == nullptr) return result;
     result += "\nPREDICTED";
-    if (settings.coarsest_level() > 0 && prediction->pyramids)
+    if (prediction->pyramids)
         result += text("\nINTERPOLATE_IMAGE\nPYRAMID_LEVELS ", prediction->pyramids->rows.size());
-    if (settings.coarsest_level() > 0 && prediction->mirrors) result += "\nINTERPOLATE_DIRECTIONS\n" + prediction->mirrors->definitions();
+    if (prediction->mirrors) result += "\nINTERPOLATE_DIRECTIONS\n" + prediction->mirrors->definitions();
     if (settings.shares_follow_variance()) result += "\nSHARES_FOLLOW_VARIANCE";
     if (settings.allocation() == Allocation::constant_variance) result += "\nALLOCATION_CONSTANT_VARIANCE";
     return result;
@@ -95,6 +95,25 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
     return {raw[0], raw[1], std::vector<uint32_t>(raw.begin() + header, raw.end())};
 }
 
+uint32_t ShadingList::Part::rounds() const { return (runs.front().samples + part_samples - 1) / part_samples; }
+
+uint32_t ShadingList::Part::pixels(uint32_t round) const {
+    uint32_t result = 0;
+    for (const Run& run : runs)
+        if (run.samples > round * part_samples) result += run.pixels;
+    return result;
+}
+
+uint64_t ShadingList::Part::samples(uint32_t round, uint32_t first_pixels) const {
+    uint64_t result = 0;
+    for (const Run& run : runs) {
+        const uint32_t own = std::min(run.pixels, first_pixels), had = std::min(run.samples, round * part_samples);
+        result += uint64_t(own) * std::min(run.samples - had, part_samples);
+        first_pixels -= own;
+    }
+    return result;
+}
+
 ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Counts& counts, const Budget& budget,
                          const Covered& covered, const GBuffer& gbuffer, const Shading& target) {
     const gl::Functions& gl = device.gl();
@@ -104,19 +123,16 @@ ShadingList shading_list(gl::Device& device, const SlotTable& slot_of, const Cou
     std::vector<uint32_t> cursors(std::max<size_t>(counts.histogram.size(), 1));
     uint32_t place = 0;
     for (uint32_t index = 0; index < parts; ++index) {
-        ShadingList::Part part{index / 2, place, 0, {}};
+        ShadingList::Part part{index / 2, place, {}};
         visit_bins([&](uint32_t bin) {
             const uint32_t count = counts.histogram[index * budget_bins + bin];
             cursors[index * budget_bins + bin] = place;
             place += count;
-            part.count += count;
             if (count == 0) return;
             list.total_samples += uint64_t(count) * list.samples[bin];
-            const uint32_t rounds = (list.samples[bin] + part_samples - 1) / part_samples;
-            if (part.longer.size() < rounds) part.longer.resize(rounds);
-            for (uint32_t k = 0; k < rounds; ++k) part.longer[k] += count;
+            part.runs.push_back({count, list.samples[bin]});
         });
-        if (part.count > 0) list.parts.push_back(std::move(part));
+        if (!part.runs.empty()) list.parts.push_back(std::move(part));
     }
     list.pixels = place;
 
@@ -142,8 +158,7 @@ ShadingList even_list(gl::Device& device, const std::vector<std::vector<uint32_t
     for (uint32_t slot = 0; slot < pixels_of_slot.size(); ++slot) {
         const std::vector<uint32_t>& own = pixels_of_slot[slot];
         if (own.empty()) continue;
-        const uint32_t rounds = (samples + part_samples - 1) / part_samples;
-        list.parts.push_back({slot, uint32_t(entries.size()), uint32_t(own.size()), std::vector<uint32_t>(rounds, uint32_t(own.size()))});
+        list.parts.push_back({slot, uint32_t(entries.size()), {{uint32_t(own.size()), samples}}});
         entries.insert(entries.end(), own.begin(), own.end());
     }
     list.pixels = entries.size();

@@ -29,9 +29,15 @@ struct ShadingList {
     gl::Buffer entries;                // y << 16 | x
     gl::Texture entries_texture;
     Budget samples;                    // of each bin
+    struct Run {
+        uint32_t pixels, samples;      // of each
+    };
     struct Part {
-        uint32_t slot, first, count;   // entries of one material
-        std::vector<uint32_t> longer;  // longer[k]: how many of them have more than k * part_samples samples
+        uint32_t slot, first;          // entries of one material
+        std::vector<Run> runs;         // in their order, by falling samples
+        uint32_t rounds() const;       // dispatches that its longest pixels need
+        uint32_t pixels(uint32_t round) const;                           // that have samples left in it
+        uint64_t samples(uint32_t round, uint32_t first_pixels) const;   // that so many of them draw in it
     };
     std::vector<Part> parts;
     uint64_t pixels = 0;               // all that are shaded, those of former rounds included

@@ -9,7 +9,6 @@ namespace lightband::passes {
 namespace {
 
 constexpr uint32_t group = 64;
-constexpr uint32_t most_groups = 65535;  // that every OpenGL 4.5 device takes in one dispatch
 
 }  // namespace
 

@@ -1,6 +1,8 @@
 // One invocation per pixel in groups of 8 x 8, and the bindings that passes share.
 #pragma once
 
+#include <algorithm>
+
 #include "gl/objects.h"
 
 namespace lightband::passes {
@@ -22,9 +24,12 @@ inline void bind_image(const gl::Functions& gl, GLuint unit, const gl::Texture& 
     gl.BindImageTexture(unit, texture.name(), GLint(level), GL_FALSE, 0, GL_READ_WRITE, format);
 }
 
-// What shaders/witnesses.glsl draws by. part: of all pixels.
+// Workgroups that every OpenGL 4.5 device takes in one dispatch.
+constexpr uint32_t most_groups = 65535;
+
+// What shaders/witnesses.glsl draws by. part: of all pixels, 0 .. 1.
 inline void set_witnesses(const gl::Program& program, double part, uint32_t seed) {
-    program.set("witnesses", uint32_t(part * 0x1p32));
+    program.set("witnesses", uint32_t(std::max(part * 0x1p32 - 1, 0.0)));
     program.set("seed", seed);
 }
 

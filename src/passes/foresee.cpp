@@ -8,7 +8,7 @@
 namespace lightband::passes {
 namespace {
 
-constexpr float most_units = 1u << 30;  // of all squared errors, each of 1 at most, in sums of 32 bits
+constexpr double most_units = 1u << 30;  // of all squared errors, each of tolerance^2 at most, in sums of 32 bits
 
 }  // namespace
 
@@ -23,7 +23,7 @@ std::vector<ForeseenTile> foresee(gl::Device& device, size_t slots, const Foreca
     std::vector<Sums> sums(slots * MirrorCells::tiles);
     const gl::Buffer buffer(gl, std::max<size_t>(sums.size(), 1) * sizeof(Sums), nullptr);
     buffer.clear();
-    const float units = most_units / float(covered.all.count / stride + 1);
+    const float units = float(most_units / (tolerance * tolerance * (covered.all.count / stride + 1)));
     const gl::Program& program = device.compute("foresee", mirrors.definitions() + "\nSTRIDE");
     program.set("units", units);
     program.set("tolerance", float(tolerance));

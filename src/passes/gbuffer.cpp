@@ -1,6 +1,7 @@
 #include "passes/gbuffer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "passes/dispatch.h"
@@ -27,12 +28,21 @@ glm::dmat4 projection(const Camera& camera, uint32_t width, uint32_t height) {
     return m;
 }
 
+// Normals keep their directions, in whatever units: a scale of 1e-20 or 1e20 would leave the range of float squared.
+glm::dmat3 directions_of_normals(const glm::dmat4& transform) {
+    const glm::dmat3 normals = glm::transpose(glm::inverse(glm::dmat3(transform)));
+    double largest = 0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(normals[column][row]));
+    return normals / largest;
+}
+
 void draw(gl::Device& device, const gl::Program& program, const Instance& instance, uint32_t number, const Camera& camera) {
     const gl::Functions& gl = device.gl();
     glm::dmat4 to_eye = instance.transform.matrix;
     to_eye[3] -= glm::dvec4(camera.eye, 0);
     const glm::mat4 to_eye_float(to_eye);
-    const glm::mat3 normals(glm::transpose(glm::inverse(glm::dmat3(instance.transform.matrix))));
+    const glm::mat3 normals(directions_of_normals(instance.transform.matrix));
     program.set_matrix4("to_eye", glm::value_ptr(to_eye_float));
     program.set_matrix3("normal_matrix", glm::value_ptr(normals));
     program.set("instance", number + 1);

@@ -86,20 +86,20 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
         bind_image(gl, 0, target.radiance, GL_RGBA32F);
         bind_image(gl, 1, target.sample_count, GL_R32UI);
         bind_image(gl, 2, target.spread, GL_RGBA32F);
-        for (uint32_t round = 0; round < part.longer.size(); ++round) {
+        for (uint32_t round = 0; round < part.rounds(); ++round) {
             program.set("part", round);
-            const uint32_t per_pixel = std::min(part_samples, *std::max_element(list.samples.begin(), list.samples.end()));
-            const uint32_t pixels = uint32_t(std::max<uint64_t>(group, dispatch_samples / per_pixel));
-            for (uint32_t first = 0; first < part.longer[round]; first += pixels) {
-                const uint32_t count = std::min(pixels, part.longer[round] - first);
+            const uint32_t all = part.pixels(round), most_samples = std::min(part_samples, part.runs.front().samples);
+            const uint32_t pixels = std::clamp(uint32_t(dispatch_samples / most_samples), group, most_groups * group);
+            for (uint32_t first = 0; first < all; first += pixels) {
+                const uint32_t count = std::min(pixels, all - first);
                 program.set("first", part.first + first);
                 program.set("count", count);
                 gl.DispatchCompute((count + group - 1) / group, 1, 1);
                 gl.MemoryBarrier(everything);
                 gl.Finish();
-                done += uint64_t(count) * per_pixel;
-                drawn(std::min(done, list.total_samples));
+                drawn(done + part.samples(round, first + count));
             }
+            done += part.samples(round, all);
         }
     }
 }

@@ -54,8 +54,9 @@ def test_every_frame_knows_its_error(context, subject, settings):
     assert frame.stats.error / 1.6 < true_error(frame, *references) < 1.6 * frame.stats.error
 
 
-def test_the_field_is_the_number_pixel_by_pixel(context, subject):
-    frame = render(context, subject[0], np.eye(3), target_error=0.05)
+@pytest.mark.parametrize("settings", [{"target_error": 0.05}, {"samples": 16, "accumulate": 8}])
+def test_the_field_is_the_number_pixel_by_pixel(context, subject, settings):
+    frame = render(context, subject[0], np.eye(3), **settings)
     covered = frame.material > 0
     assert np.sqrt(np.mean(frame.error[covered].astype(np.float64) ** 2)) == pytest.approx(frame.stats.error, rel=1e-5)
     assert (frame.error[~covered] == 0).all() and (frame.error >= 0).all()
@@ -109,7 +110,8 @@ def test_whichever_comes_first(context, subject):
     easy = render(context, brdf, np.eye(3), target_error=0.2, time_budget=1e6)
     assert easy.stats.error <= 0.2
     hard = render(context, brdf, np.eye(3), target_error=1e-5, time_budget=50)
-    assert hard.stats.error > 1e-5 and hard.stats.samples > 0
+    assert hard.stats.error > 1e-5
+    assert 0 < hard.stats.samples < 0.1 * hard["max_samples"] * hard.stats.covered_pixels
 
 
 def test_an_error_cannot_be_asked_of_accumulated_frames(context, scene):
@@ -144,6 +146,31 @@ def test_progress_of_rounds_never_goes_back(context, scene):
     assert seen == sorted(seen) and seen[0] == 0 and seen[-1] == 1
     with pytest.raises(lightband.Cancelled):
         frame.render(scene, progress=lambda fraction: fraction > 0)
+
+
+def test_progress_moves_while_a_frame_is_shaded(context, scene):
+    """In dispatches of 2^23 samples at most, whatever the most is that a pixel might have."""
+    for settings in ({"samples": 2048}, {"method": "reference", "samples": 2048}):
+        frame = context.frame(192, 192, coarsest_level=0, max_samples=1 << 16, **settings)
+        seen = []
+        frame.render(scene, progress=seen.append)
+        assert any(0.2 < fraction < 0.8 for fraction in seen)
+
+
+def test_of_few_pixels_every_one_that_might_be_interpolated_is_looked_at(context):
+    """Fewer witnesses than tell anything: in a second round all are, so that none is left to be interpolated unseen."""
+    scene = context.scene()
+    scene.environment = context.environment(np.random.default_rng(1).uniform(size=(16, 32, 3)).astype(np.float32) ** 4)
+    scene.add(context.builtin_mesh("sphere", 32), context.builtin_brdf("matte-fabric"))
+    scene.camera(eye=(0, 0, 1.3), target=(0, 0, 0))
+    again = 0
+    for size, seed in ((10, 3), (12, 3), (14, 1), (14, 2), (16, 3)):
+        frame = context.frame(size, size, target_error=0.02, bandwidth_scale=0.2, seed=seed)
+        frame.render(scene)
+        if frame.stats.rounds > 1:
+            again += 1
+            assert frame.stats.shaded_pixels == frame.stats.covered_pixels <= 255
+    assert again > 0
 
 
 @pytest.mark.parametrize("samples", [1, 2, 3, 4, 5])

@@ -153,6 +153,22 @@ def test_world_times_a_power_of_two(
         np.testing.assert_array_equal(other.buffer(name), one.buffer(name) * np.float64(factor) ** power, err_msg=name)
 
 
+@pytest.mark.parametrize("units", [3e19, 1e-19])
+def test_meshes_in_any_units(context: lightband.Context, units: float) -> None:
+    """Metres per unit of a mesh, whose square is beyond what a float holds, turn no normal: a tilted square of one metre."""
+    corners = np.array([(-1, -1, -0.3), (1, -1, 0.4), (1, 1, 0.4), (-1, 1, -0.3)]) / 2
+    expected = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    scene = context.scene()
+    scene.environment = context.environment(np.ones((1, 2, 3), np.float32))
+    scene.add(context.mesh(corners / units, [(0, 1, 2), (0, 2, 3)]), context.lambert(0.5), np.diag([units, units, units, 1]))
+    scene.camera(eye=(0, 0, 2), target=(0, 0, 0))
+    frame = context.frame(16, 16, samples=1)
+    frame.render(scene)
+    seen = frame.material > 0
+    assert seen.any() and frame.stats.bent_normals == 0
+    np.testing.assert_allclose(frame.normal[seen], np.broadcast_to(expected / np.linalg.norm(expected), (seen.sum(), 3)), atol=4 * 2**-23)
+
+
 @settings(deadline=None, max_examples=25)
 @given(case=cases(tuple(MAPS)), exponent=st.floats(-6, 6), samples=st.sampled_from((1, 7, 64)))
 def test_light_times_any_factor(

@@ -75,6 +75,10 @@ def test_where_interpolation_does_not_pay_nothing_is_interpolated(context, spher
     frame = rendered(context, sphere, target_error=0.001)
     assert frame.stats.shaded_pixels == frame.stats.covered_pixels and "upsample" not in passes(frame)
     assert rendered(context, sphere, target_error=0.1).stats.shaded_pixels < frame.stats.shaded_pixels
+    # What was made for it is gone: no byte is left of it, and levels are those of the bandwidth as it is.
+    every = rendered(context, sphere, target_error=0.001, coarsest_level=0)
+    assert frame.stats.device_bytes == every.stats.device_bytes
+    np.testing.assert_array_equal(frame.level, rendered(context, sphere, samples=16, bandwidth_scale=1).level)
 
 
 def test_variances_are_gathered_where_shares_follow_them(context, sphere):

@@ -507,6 +507,23 @@ void an_audit_takes_what_it_may(void**) {
     assert_true(Audit::effort(settings, 30000, 101000).part > 0 && Audit::effort(settings, 30000, 100000).part == 0);
 }
 
+// Whichever comes first: of an error that shading all 1000 pixels reaches in 0.3 s, and one that they reach in 4, a second lasts for one.
+void an_error_is_kept_where_there_is_time_for_it(void**) {
+    Pace pace;
+    pace.samples_per_millisecond = 1000;
+    for (const auto& [target, kept] : {std::pair(0.01, true), {0.002, false}}) {
+        Settings settings = asking("time_budget", 1000);
+        settings.set_number("target_error", target);
+        Control control(settings, probed(std::pow(0.8 * 0.01, 2) * std::pow(4, 1.2)), 2, pace, 0);
+        Histogram histogram(budget_bins);
+        histogram[share_one] = 1000;
+        control.reconsider(histogram, 0);
+        const double each = control.plan(histogram, 0)[share_one];
+        // 64 samples leave 4^1.2 times the noise allowed of 256; or the first of two rounds has 0.15 s for all.
+        check_close("samples of each", each, kept ? 256 : 0.15 * 1000 - Pace::pixel_samples, 1);
+    }
+}
+
 void a_time_is_shared_between_two_rounds(void**) {
     const Settings settings = asking("time_budget", 1000);
     Pace pace;
@@ -576,6 +593,7 @@ int main() {
         cmocka_unit_test(a_probe_plans_the_first_round),
         cmocka_unit_test(who_is_drawn_among_few_is_among_more),
         cmocka_unit_test(an_audit_takes_what_it_may),
+        cmocka_unit_test(an_error_is_kept_where_there_is_time_for_it),
         cmocka_unit_test(a_time_is_shared_between_two_rounds),
     };
     return cmocka_run_group_tests_name("control", tests, nullptr, nullptr);
