@@ -155,6 +155,10 @@ def test_progress_moves_while_a_frame_is_shaded(context, scene):
         seen = []
         frame.render(scene, progress=seen.append)
         assert any(0.2 < fraction < 0.8 for fraction in seen)
+        frame["samples"] = 16
+        seen.clear()
+        frame.render(scene, progress=seen.append)
+        assert seen.count(1) <= 2  # at the end of the last dispatch, and of the frame
 
 
 def test_of_few_pixels_every_one_that_might_be_interpolated_is_looked_at(context):
