@@ -115,7 +115,7 @@ def rival_section(rivals: list[dict]) -> str:
         ratios = column(rivals, name)
         least = min(rivals, key=lambda row: row[name])
         text.append(f"Against {rival}: geometric mean {digits(geometric_mean(ratios))}, least {digits(ratios.min())} "
-                    f"({frame_name(least)}). Slower than it: {np.mean(ratios < 1):.0%} of "
+                    f"({frame_name(least)}). Slower than it: {np.sum(ratios < 1)} of "
                     f"{len(ratios)} frames.")
     return "\n\n".join(map(prose, text)) + "\n\n" + table(
         ("asked", *(heading for name, least in LEAST_RATIO.items() for heading in (f"{name}: mean", "least", f"below {least}")),

@@ -8,7 +8,8 @@ set(LIGHTBAND_PKGCONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lightband DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 
-# Two export sets: whoever links the shared library needs none of its dependencies' packages.
+# Two export sets: whoever links the shared library needs none of its dependencies' packages. (pkg-config asks for them all the same:
+# Requires.private.)
 install(TARGETS lightband EXPORT lightbandTargets)
 install(TARGETS lightband_static EXPORT lightbandStaticTargets)
 install(EXPORT lightbandTargets NAMESPACE lightband:: DESTINATION ${LIGHTBAND_CMAKE_DIR})

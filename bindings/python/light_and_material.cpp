@@ -72,8 +72,8 @@ void bind_light_and_material(py::module_& module) {
     bind_closing(environment);
     bind_field(environment, "radiance", "float32, height x width x 3: linear RGB as loaded, rows top-down.");
     bind_field(environment, "bandwidth",
-               "float32, size x size: cycles/radian per direction, on the octahedral square (docs/conventions.md); 1e9 "
-               "where unbounded.");
+               "float32, size x size: cycles/radian per direction, on the octahedral square (docs/conventions.md); it ends "
+               "at what its texels, or the map's, can show.");
     environment.def("__repr__",
                     [](const Environment& self) { return describe("Environment", self, self.description); });
 

@@ -15,20 +15,22 @@ static void check(lb_result result, const char* what) {
     }
 }
 
-/* Mean of the light samples that the pixels of the frame's grid drew. */
+/* Mean of the light samples that the shaded pixels drew. */
 static double mean_sample_count(lb_frame frame) {
     lb_buffer buffer = NULL;
     lb_buffer_view view = LB_BUFFER_VIEW_INIT;
     check(lb_frame_map(frame, "sample_count", &buffer, &view), "sample_count");
-    double sum = 0;
+    double sum = 0, shaded = 0;
     for (uint64_t y = 0; y < view.shape[0]; ++y) {
         for (uint64_t x = 0; x < view.shape[1]; ++x) {
             const char* pixel = (const char*)view.data + (int64_t)y * view.strides[0] + (int64_t)x * view.strides[1];
-            sum += *(const uint32_t*)pixel;
+            const uint32_t count = *(const uint32_t*)pixel;
+            sum += count;
+            shaded += count > 0;
         }
     }
     check(lb_buffer_release(buffer), "release sample_count");
-    return sum / ((double)view.shape[0] * (double)view.shape[1]);
+    return shaded > 0 ? sum / shaded : 0;
 }
 
 int main(int argc, char** argv) {
@@ -69,7 +71,7 @@ int main(int argc, char** argv) {
     lb_frame_stats stats = LB_FRAME_STATS_INIT;
     check(lb_frame_info(frame, &stats), "statistics");
     printf("%s\n", device_name);
-    printf("error about %.1f %% in %u rounds, %.0f ms: %llu of %llu covered pixels shaded, %.1f light samples per pixel\n",
+    printf("error about %.1f %% in %u rounds, %.0f ms: %llu of %llu covered pixels shaded, %.1f light samples of each\n",
            100 * stats.error, stats.rounds, stats.milliseconds, (unsigned long long)stats.shaded_pixels,
            (unsigned long long)stats.covered_pixels, mean_sample_count(frame));
 

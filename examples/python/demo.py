@@ -2,7 +2,7 @@
 
     python examples/python/demo.py [--out out] [--width 768] [--error 0.03]
 
-Asks for an error, writes the picture (EXR with every field, and PNG) and a sheet of all fields, and prints the error that was asked,
+Asks for an error, writes the picture (EXR with nine fields, and PNG) and a sheet of all fields, and prints the error that was asked,
 that the frame estimates and that a reference shows, with time, pixels shaded and samples.
 """
 

@@ -20,8 +20,8 @@
  * Structs    Begin with `struct_size`, set by the *_INIT macro beside each. Zero in a field means the default. A larger
  *            struct of a later version is accepted where its unknown tail is zero (up to 4096 bytes).
  * Threads    Every call may come from any thread. Calls on objects of one context wait for each other;
- *            objects of different contexts are independent. Callbacks run on the calling thread and must
- *            not call the library.
+ *            objects of different contexts are independent. Callbacks run on the calling thread; what they call
+ *            of the library fails with LB_ERROR_INVALID_STATE.
  * Units      Metres, radians, cycles. Angular bandwidth in cycles per radian, spatial in cycles per metre,
  *            image bandwidth in cycles per pixel. Radiance is linear with Rec. 709 primaries; luminance
  *            weights 0.2126, 0.7152, 0.0722. World space is right-handed.
@@ -143,7 +143,7 @@ LB_API lb_result lb_context_is_software(lb_context context, uint32_t* software);
 LB_API lb_result lb_brdf_load(lb_context context, const char* path, lb_brdf* brdf);
 
 /* A material that the library computes itself as a table in the MERL layout, from physical models and
- * published optical constants (docs/materials.md). Computed at first use (about a second) and cached.
+ * published optical constants (docs/materials.md). Computed at first use (up to a second) and cached.
  * LB_ERROR_INVALID_ARGUMENT: unknown name; the message lists the names. */
 LB_API lb_result lb_brdf_builtin(lb_context context, const char* name, lb_brdf* brdf);
 
@@ -174,7 +174,7 @@ LB_API lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]);
 
 /* Distant light from a latitude-longitude map: OpenEXR (.exr, every pixel type and compression that OpenEXR
  * reads) or Radiance (.hdr). +Y is up, the image's centre looks along +Z, its left edge along -Z (OpenEXR's
- * convention); texels are sampled at their centres. 1x1 up to 16384x8192.
+ * convention); texels are sampled at their centres. 1x1 up to 16384x8192, in a file of at most 1 GiB.
  * In a map of lossy compression (DWAA, DWAB), values from -0.01 to 0 are its ringing: they become 0, and the log
  * callback hears how many.
  * LB_ERROR_FILE, LB_ERROR_FORMAT (corrupt; a texel that is negative, not finite or above 1e15: the message says where). */
@@ -191,7 +191,7 @@ typedef struct lb_mesh_desc {
     uint32_t vertex_count;
     const float* positions; /* vertex_count * 3, metres */
     const float* normals;   /* vertex_count * 3, any length but zero; NULL: computed, area-weighted */
-    const float* texcoords; /* vertex_count * 2; NULL: none */
+    const float* texcoords; /* vertex_count * 2, finite; NULL: none. No reflectance asks for them yet */
     const uint32_t* indices; /* triangle_count * 3, each below vertex_count */
     uint32_t triangle_count;
 } lb_mesh_desc;
@@ -228,14 +228,15 @@ typedef struct lb_camera_desc {
     float eye[3];    /* metres */
     float target[3]; /* a point in the middle of the picture; not the eye */
     float up[3];     /* not along the view direction; zero: +Y */
-    float fov_y;     /* vertical field of view, radians, in (0, pi); zero: 0.7 */
+    float fov_y;     /* vertical field of view, radians, above 0 and below pi - 0.001; zero: 0.7 */
     float near_plane; /* metres, > 0; zero: 1e-3 of the distance from eye to target */
     float far_plane;  /* metres, > near; zero: 1e3 times that distance */
 } lb_camera_desc;
 
 #define LB_CAMERA_DESC_INIT { sizeof(lb_camera_desc), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0 }
 
-/* An empty scene. It needs an environment and a camera before it can be rendered; it may have no mesh. */
+/* An empty scene. It needs an environment and a camera before it can be rendered; it may have no mesh. Environment, camera and
+ * transforms may change between renders of one frame, as in an animation; instances stay, with their mesh and material. */
 LB_API lb_result lb_scene_create(lb_context context, lb_scene* scene);
 LB_API lb_result lb_scene_set_environment(lb_scene scene, lb_environment environment);
 LB_API lb_result lb_scene_set_camera(lb_scene scene, const lb_camera_desc* camera);
@@ -259,10 +260,12 @@ LB_API lb_result lb_scene_set_double_sided(lb_scene scene, uint32_t index, int32
 
 /* A picture of width x height pixels, each 1 .. 8192, with the default settings. A frame is asked for one of three things:
  *   "target_error"  a relative error (docs/conventions.md). It is shaded in rounds until its own estimate is below; a frame that
- *                   cannot get there (max_samples, 8 rounds; one frame's directions of the map leave about 0.2 %) says what it
- *                   reached in lb_frame_stats.error
+ *                   cannot get there (max_samples, 8 rounds; with the sampler "combined" also the directions that one frame
+ *                   draws of the map, which leave about 0.2 %) says what it reached in lb_frame_stats.error
  *   "time_budget"   milliseconds. It becomes as good as they let; how fast the device is, the frame learns from its own
- *                   renders, so that the first (which also builds programs) may miss. With target_error: whichever comes first
+ *                   renders, so that the first (which also builds programs) may miss. No frame is quicker than its geometry, its
+ *                   prediction and some samples of a few pixels: lb_frame_stats.milliseconds says what it took. With
+ *                   target_error: whichever comes first, as far as is known before the first round
  *   "samples"       a number of light samples per shaded pixel
  * With a time budget two renders differ; otherwise equal seeds give equal frames. */
 LB_API lb_result lb_frame_create(lb_context context, uint32_t width, uint32_t height, lb_frame* frame);
@@ -299,7 +302,8 @@ LB_API lb_result lb_setting_at(uint32_t index, lb_setting_info* info);
 typedef int32_t (*lb_progress_callback)(void* user, double fraction);
 
 /* Renders. On any failure the frame keeps its former result.
- * LB_ERROR_INVALID_STATE: the scene has no camera or no environment; LB_ERROR_CANCELLED; LB_ERROR_LIMIT. */
+ * LB_ERROR_INVALID_STATE: the scene has no camera or no environment, or "accumulate" is above 1 where an error or a time is asked
+ * for, or a callback called; LB_ERROR_INVALID_ARGUMENT: the scene is of another context; LB_ERROR_CANCELLED; LB_ERROR_LIMIT. */
 LB_API lb_result lb_frame_render(lb_frame frame, lb_scene scene, lb_progress_callback progress, void* user);
 
 typedef struct lb_frame_stats {
@@ -354,7 +358,7 @@ typedef struct lb_buffer_view {
     uint32_t dimensions;  /* 2 .. 4 */
     uint64_t shape[4];    /* elements along each dimension, rows first */
     int64_t strides[4];   /* bytes from one element to the next along each dimension */
-    const char* unit;     /* "radiance", "1/pixel", ... static storage */
+    const char* unit;     /* "radiance", "1/pixel", ...; "" of a pure number; cycles are not written. Static storage */
 } lb_buffer_view;
 
 #define LB_BUFFER_VIEW_INIT { sizeof(lb_buffer_view), 0, NULL, 0, {0, 0, 0, 0}, {0, 0, 0, 0}, NULL }
@@ -378,9 +382,10 @@ typedef struct lb_buffer_view {
  *                                          pixel asks for; 15: finer than there are
  *   shaded              uint8   [H][W]     1: the integral was computed here; 0: interpolated or nothing seen
  *   sample_count        uint32  [H][W]     light samples drawn here
- *   error               float32 [H][W]     relative error expected here, as the frame estimates it: of L + 0.01 mean L;
+ *   error               float32 [H][W]     error of the luminance L that is expected here, over L + 0.01 of the frame's mean L;
  *                                          its root mean square over the covered pixels is lb_frame_stats.error
- *   variance_predicted  float32 [H][W]     radiance^2: predicted variance of one light sample's luminance (eq. 9)
+ *   variance_predicted  float32 [H][W]     radiance^2: predicted variance of one light sample's luminance, by the setting
+ *                                          "variance" (eq. 9 where that is "printed")
  *   variance_measured   float32 [H][W]     radiance^2: the same, from the samples drawn here; 0 where fewer than two
  *   level_pyramid       uint8   [R][W]     the levels' min pyramid: level 0 in rows 0 .. H-1, level 1 (of half
  *                                          size, rounded up) below it, and so on; 255 where nothing is seen
@@ -396,7 +401,8 @@ LB_API const char* lb_frame_buffer_name(uint32_t index);
 
 /* Fields of a map:
  *   radiance   float32 [H][W][3]  as loaded
- *   bandwidth  float32 [S][S]     cycles/radian on the octahedral square (docs/conventions.md) */
+ *   bandwidth  float32 [S][S]     cycles/radian on the octahedral square (docs/conventions.md); it ends at what its texels, or the
+ *                                 map's, can show. S: a power of two, at most 512 */
 LB_API lb_result lb_environment_map(lb_environment environment, const char* name, lb_buffer* buffer,
                                     lb_buffer_view* view);
 

@@ -1,6 +1,6 @@
 // lightband in C++17: the handles of lightband.h as classes, its result codes as exceptions. Header only.
 //
-//     lightband::Context context;
+//     lightband::Context context({LB_DEVICE_ANY});
 //     lightband::Scene scene = context.scene();
 //     scene.add(context.builtin_mesh("sphere"), context.load_brdf("nickel.binary"));
 //     scene.set_environment(context.load_environment("forest.exr"));

@@ -62,8 +62,8 @@ void give(HandleTable<Object>& table, std::shared_ptr<Object> object, Handle* ou
     *out = reinterpret_cast<Handle>(table.insert(std::move(object)));
 }
 
-// A descriptor as the caller's version of it knew it: shorter ones of version 1 or later are completed with zeros, the
-// unknown tail of a longer one must be zero.
+// A descriptor as the caller's version of it knew it: the unknown tail of a longer one must be zero. No struct has grown yet, so that
+// a shorter one is an error; whoever appends a field lets those of the size before be completed with zeros.
 template <class Struct>
 Struct read_struct(const Struct* given, const char* name) {
     require(given, name);

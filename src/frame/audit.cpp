@@ -92,7 +92,7 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
         if (pixels < fewest_pixels) return {};
     }
     samples = std::clamp(samples, fewest, most);
-    // Where time is short there is none for a probe.
+    // Where time alone is asked for there is none for a probe.
     probe = !planned && (!cut || settings.time_budget() > 0) ? 0 : cut ? samples / gain : probe;
     return {std::min(pixels / covered_pixels, most_covered), biased ? uint32_t(samples) : 0, uint32_t(probe)};
 }

@@ -10,7 +10,7 @@
 
 namespace lightband {
 
-// Whether a pixel is among those drawn by chance, `part` of all; who is among few is among more. shaders/classify.glsl draws alike.
+// Whether a pixel is among those drawn by chance, `part` of all; who is among few is among more. shaders/witnesses.glsl draws alike.
 bool is_drawn(uint32_t x, uint32_t y, uint32_t seed, double part);
 
 struct Audit {

@@ -9,7 +9,7 @@ namespace lightband {
 // Pixels are binned by the share of samples that they deserve, four bins an octave: bin b deserves 2^((b - share_one) / 4).
 constexpr uint32_t budget_bins = 126, share_one = 63, bins_per_octave = 4;
 double share_of(uint32_t bin);
-// Fewer would leave one of the two samplers of one of the two replicates without a point.
+// Fewer save little, since a pixel costs as much as 30 before its first one, and make witnesses that see ghosts (docs/decisions/0007).
 constexpr uint32_t least_samples = 16;
 
 using Histogram = std::vector<uint64_t>;  // pixels per bin

@@ -1,6 +1,8 @@
 // What a finished round says of its error: noise from the spread of two replicates, interpolation from witnesses, bias from an audit.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -53,6 +55,10 @@ struct ErrorEstimate {
     std::vector<Tile> tiles;
 
     double error() const;
+    // Its parts, relative: where an audit saw less than the spreads tell, there is less noise and no bias.
+    double noise_error() const { return std::sqrt(noise + std::min(bias, 0.0)); }
+    double interpolation_error() const { return std::sqrt(interpolation); }
+    double bias_error() const { return std::sqrt(std::max(bias, 0.0)); }
     double shading() const { return noise + bias; }  // what more samples lessen
 };
 

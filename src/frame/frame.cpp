@@ -103,10 +103,10 @@ void Frame::finish(Job* job) const {
         {"environment", "bandwidth", "probe", "audit", "doubt", "foresee", "pyramids", "cells", "classify", "list", "estimate"});
     stats.shading_milliseconds = next.plan.milliseconds_of({"shade"});
     stats.error = next.estimate.error();
-    stats.noise_error = std::sqrt(next.estimate.noise + std::min(next.estimate.bias, 0.0));
-    stats.interpolation_error = std::sqrt(next.estimate.interpolation);
+    stats.noise_error = next.estimate.noise_error();
+    stats.interpolation_error = next.estimate.interpolation_error();
     stats.audited_pixels = uint32_t(job->audit.pixels.size());
-    stats.bias_error = std::sqrt(std::max(next.estimate.bias, 0.0));
+    stats.bias_error = next.estimate.bias_error();
 }
 
 Forecast Frame::predict(Job* job) const {
@@ -266,8 +266,8 @@ void Frame::measure(Job* job) const {
     job->pixels = std::move(pixels);
     next.plan.count("shade", job->samples);
     next.plan.finished("estimate",
-                       text("error by noise ", std::sqrt(next.estimate.noise), ", by interpolation ",
-                            std::sqrt(next.estimate.interpolation), ", by bias ", std::sqrt(std::max(next.estimate.bias, 0.0))),
+                       text("error by noise ", next.estimate.noise_error(), ", by interpolation ", next.estimate.interpolation_error(),
+                            ", by bias ", next.estimate.bias_error()),
                        0, this->pixels(), "pixels");
 }
 

@@ -36,7 +36,7 @@ enum Place {
 const lb_setting_info table[place_count] = {
     choice_of("method", "adaptive|reference", "adaptive",
               "adaptive: shade where the predicted bandwidth asks for it, interpolate elsewhere. reference: shade every pixel "
-              "with the same number of random samples of the BRDF."),
+              "with random samples of the BRDF, the same number of each unless an error or a time is asked for."),
     real("target_error", 0, 1, 0,
          "Relative error of the frame that is asked for (docs/conventions.md); rounds of shading stop where the estimate is below "
          "it. 0: none. The frame's statistics say what was reached."),
@@ -46,7 +46,7 @@ const lb_setting_info table[place_count] = {
     integer("samples", 1, 1 << 20, 64,
             "Light samples per shaded pixel: the mean of an adaptive frame, the constant number of a reference. Unused where an error "
             "or a time is asked for."),
-    integer("max_samples", 1, 1 << 20, 1 << 16, "Most samples that one pixel of an adaptive frame may get."),
+    integer("max_samples", 1, 1 << 20, 1 << 16, "Most samples that one pixel may get where they are not the same number for all."),
     real("bandwidth_scale", 0, Settings::largest_bandwidth_scale, 0,
          "Factor on the predicted image bandwidth before a level is chosen; more: more pixels are shaded. 0: chosen so that "
          "interpolation errs about as much as the predicted noise; it grows with samples."),
@@ -83,7 +83,7 @@ const lb_setting_info table[place_count] = {
     choice_of("environment_lookup", "linear|nearest", "linear", "Lookup in the environment's map."),
     choice_of("background", "none|environment", "none", "What pixels that see no mesh show."),
     integer("seed", 0, 4294967295.0, 0, "Frames with different seeds are independent; equal seeds give equal frames."),
-    integer("accumulate", 1, 1 << 20, 1, "Frames rendered with successive seeds and averaged in double precision."),
+    integer("accumulate", 1, 1 << 20, 1, "Frames rendered with successive seeds and averaged in double precision. 1 where an error or a time is asked for."),
 };
 
 int find(const std::string& name) {

@@ -9,7 +9,7 @@
 namespace lightband::io {
 namespace {
 
-// The largest accepted map as uncompressed half floats takes 0.75 GiB.
+// The largest accepted map as uncompressed half floats takes 0.75 GiB; as floats it needs a compression.
 constexpr uint64_t max_image_bytes = uint64_t(1) << 30;
 
 template <size_t count>

@@ -18,7 +18,7 @@ struct Counts {
 };
 
 // Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: the part of
-// those that might be interpolated that are shaded all the same. tolerance: shaders/classify.glsl. former_bins: of
+// those that might be interpolated that are shaded all the same. tolerance: shaders/pilots_say.glsl. former_bins: of
 // the pixels that former rounds shaded; empty in the first.
 Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Settings& settings,
                 double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,

@@ -39,7 +39,9 @@ Camera Camera::from(const lb_camera_desc& desc) {
     camera.up = glm::cross(camera.right, camera.forward);
 
     camera.fov_y = number_or(desc.fov_y, 0.7, "fov_y");
-    if (!(camera.fov_y < pi - 1e-3))
+    // There the picture is two thousand times as wide as it is far away.
+    constexpr double flattest = 1e-3;
+    if (!(camera.fov_y < pi - flattest))
         throw Error(LB_ERROR_INVALID_ARGUMENT, text("camera: fov_y is ", desc.fov_y, "; it must be below pi - 0.001 radians"));
     camera.near_plane = number_or(desc.near_plane, 1e-3 * distance, "near_plane");
     camera.far_plane = number_or(desc.far_plane, 1e3 * distance, "far_plane");

@@ -18,7 +18,7 @@ struct EnvironmentBandwidth {
     gl::Texture bandwidth;  // nu_a, cycles/radian
 };
 
-// Directions drawn from a map beforehand; a pixel takes an aligned block of them.
+// Directions drawn from a map beforehand; a pixel takes those of some clusters (docs/decisions/0006).
 struct MapPoints {
     static constexpr uint32_t count = 1u << 16, cluster_count = 64;
     gl::Buffer points, clusters;  // two vec4 each: sampling/map_sampler.h, MapPoint and MapCluster

@@ -22,7 +22,7 @@ public:
     // Definitions of the lobe.glsl variant, and binding of its tables and uniforms.
     std::string definitions(Lookup lookup) const;
     void bind(const gl::Program& program) const;
-    // What the map's clusters are weighed by (src/sampling/lobe_sampler.h), made when first asked for.
+    // What the map's clusters and the trunk of its tree are weighed by (src/sampling/lobe_sampler.h), made when first asked for.
     void bind_importance() const;
 
     const LobeBandwidth& bandwidth(BandRule rule) const;

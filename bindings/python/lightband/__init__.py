@@ -2,7 +2,7 @@
 
     import lightband
 
-    context = lightband.Context()
+    context = lightband.Context(device="any")
     scene = context.scene()
     scene.add(context.builtin_mesh("sphere"), context.load_brdf("nickel.binary"))
     scene.environment = context.load_environment("forest.exr")

@@ -1,6 +1,6 @@
 """Pictures of a frame's fields, and of pairs of maps that should agree.
 
-Needs Matplotlib: ``pip install 'lightband[pictures]'``.
+Needs Matplotlib: ``pip install matplotlib``.
 
     from lightband import pictures
 
@@ -27,7 +27,7 @@ try:
     from matplotlib.colors import BoundaryNorm, Colormap, FuncNorm, ListedColormap, LogNorm, Normalize
     from matplotlib.figure import Figure
 except ImportError as _missing:
-    raise ImportError("lightband.pictures needs Matplotlib: pip install 'lightband[pictures]'") from _missing
+    raise ImportError("lightband.pictures needs Matplotlib: pip install matplotlib") from _missing
 
 __all__ = ["Pair", "draw_fields", "draw_pairs", "rank_correlation"]
 
