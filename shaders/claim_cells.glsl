@@ -15,6 +15,7 @@ layout(binding = 0, r32ui) writeonly uniform uimage2D cells;
 layout(binding = 2, rgba32ui) writeonly uniform uimageBuffer mirrors;
 layout(binding = 1, r32ui) readonly uniform uimage2D sample_counts;  // of former rounds
 uniform float wider;  // factor on the scale
+uniform float first_scale;
 layout(binding = 0, std430) buffer Claims { uint claims[]; };
 layout(binding = 1, std430) buffer Counts { uint counts[]; };  // pixels of each cell
 
@@ -30,7 +31,9 @@ void main() {
     float scale = texelFetch(scales, tile_of(slot, cell_at(square, first_level))).r;
     // A cell at level 0 would be so wide.
     float side = wider * scale * cells_per_cycle * texelFetch(reflected, at, 0).r * cell_width(direction, 0);
-    int level = int(clamp(ceil(log2(max(side, 1.0))), float(first_level), float(last_level + 1)));
+    // Where witnesses ask for more than at first, the coarsest cells become as much finer, whatever was predicted.
+    side = max(side, scale / first_scale * exp2(float(first_level)));
+    int level = int(clamp(ceil(log2(side)), float(first_level), float(last_level + 1)));
     if (level > last_level) {
         imageStore(cells, at, uvec4(cell_word(too_fine, ivec2(0))));
         return;

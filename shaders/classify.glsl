@@ -3,6 +3,7 @@
 #include "covered.glsl"
 #include "decision.glsl"
 #if defined(INTERPOLATE_IMAGE)
+#include "lamps.glsl"
 #include "parents.glsl"
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
 #if defined(SHARES_FOLLOW_VARIANCE)
@@ -71,18 +72,21 @@ void around_lattice_point(ivec2 at, int level, out int least, inout float varian
 }
 
 // Whether the pixel may be interpolated: enough parents evenly around it, none of which (those at the far edges lie outside the
-// blocks around it) needs a finer spacing than theirs. Keeps their weights for that.
+// blocks around it) needs a finer spacing than theirs, or lies beyond a lamp's horizon. Keeps their weights for that.
 bool has_sound_parents(ivec2 at, int level, float pixel_level) {
     Parents parents = parents_of(at, level, pixel_level);
     if (!parents.balanced) return false;
     float between = 0.0;
+    bool parted = false;
+    vec3 normal = surface_at(at).normal;
     for (int corner = 0; corner < 4; ++corner) {
         if (parents.weight[corner] <= 0.0) continue;
         if (int(imageLoad(levels, parents.at[corner]).r) <= level) return false;
         between += parents.weight[corner] * expected_at(parents.at[corner]);
+        parted = parted || parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
     }
     imageStore(weights, at, vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]));
-    return abs(contradiction(expected_at(at), between)) <= tolerance;
+    return !parted && abs(contradiction(expected_at(at), between)) <= tolerance;
 }
 
 #endif

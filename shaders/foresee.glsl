@@ -2,6 +2,7 @@
 // of the pixels, tile by tile.
 #include "common.glsl"
 #include "covered.glsl"
+#include "surface.glsl"
 #include "speakers.glsl"
 layout(binding = 2) uniform usampler2D materials;
 layout(binding = 3) uniform usamplerBuffer brdf_of;

@@ -11,6 +11,7 @@ layout(binding = 0, r8ui) writeonly uniform uimage2D levels;
 layout(binding = 1, r32f) writeonly uniform image2D variances;
 uniform float mean_radiance;  // of the covered pixels
 #endif
+uniform float first_scale;
 uniform int coarsest_level;
 
 void main() {
@@ -18,7 +19,7 @@ void main() {
     if (!covered_pixel(at)) return;
     int tiles = (textureSize(bandwidth, 0).x + TILE_SIDE - 1) / TILE_SIDE;
     float scale = texelFetch(scales, at.y / TILE_SIDE * tiles + at.x / TILE_SIDE).r;
-    imageStore(levels, at, uvec4(shading_level(texelFetch(bandwidth, at, 0).b, scale, coarsest_level)));
+    imageStore(levels, at, uvec4(shading_level(texelFetch(bandwidth, at, 0).b, scale, first_scale, coarsest_level)));
 #if defined(VARIANCES)
     imageStore(variances, at, vec4(relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance)));
 #endif

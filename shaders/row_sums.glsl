@@ -12,7 +12,7 @@ uniform int coarsest_level;
 
 float summand(ivec2 at) {
     if (texelFetch(materials, at, 0).r == 0u) return 0.0;
-    return exp2(-2.0 * float(shading_level(texelFetch(source, at, 0).b, scale, coarsest_level)));
+    return exp2(-2.0 * float(shading_level(texelFetch(source, at, 0).b, scale, scale, coarsest_level)));
 }
 #else
 layout(binding = 0) uniform sampler2D source;  // prediction

@@ -139,7 +139,8 @@ LB_API lb_result lb_context_is_software(lb_context context, uint32_t* software);
 /* A BRDF of a MERL .binary file (Matusik et al. 2003): three int32 (90, 90, 180), then 3 x 90 x 90 x 180
  * float64, channel-major, cells (theta_half [quadratic], theta_diff, phi_diff), scaled by (1, 1.15, 1.66)/1500
  * to 1/steradian. Negative cells were not measured; they reflect nothing.
- * LB_ERROR_FILE, LB_ERROR_FORMAT (header, size, a cell that is not finite). */
+ * LB_ERROR_FILE, LB_ERROR_FORMAT (header, size, a cell that is not finite or above 1e9 per steradian, more than a hundred
+ * times the light reflected). */
 LB_API lb_result lb_brdf_load(lb_context context, const char* path, lb_brdf* brdf);
 
 /* A material that the library computes itself as a table in the MERL layout, from physical models and
@@ -152,7 +153,8 @@ LB_API uint32_t lb_brdf_builtin_count(void);
 LB_API const char* lb_brdf_builtin_name(uint32_t index);
 
 /* A BRDF from a table in memory: float32 values in 1/steradian, shape [90][90][180][3], cells and order as in a
- * MERL file but colours interleaved; negative: not measured. The table is copied. */
+ * MERL file but colours interleaved, at most 1e9, nor more than a hundred times the light reflected; negative: not measured. The table is
+ * copied. */
 LB_API lb_result lb_brdf_create_table(lb_context context, const float* values, size_t count, lb_brdf* brdf);
 
 /* Lambert: albedo / pi. Each albedo channel in [0, 1]. */

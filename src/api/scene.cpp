@@ -11,15 +11,18 @@ using namespace lightband::api;
 
 namespace {
 
-// read: reads or computes the reflectance, without the device.
+// read: reads or computes the reflectance, without the device. source: what is wrong where it is not to be had, and how.
 template <class Read>
-lb_result create_brdf(lb_context context, lb_brdf* brdf, Read read) {
+lb_result create_brdf(lb_context context, lb_brdf* brdf, Read read, const char* source = "values",
+                      lb_result wrong = LB_ERROR_INVALID_ARGUMENT) {
     return border([&] {
         require(brdf, "brdf");
         const auto owner = contexts().get(context, "context");
         Brdf reflectance = read(*owner);
         const gl::Device::Guard guard(owner->device);
-        give<lb_brdf>(materials(), make<const Material>(owner->device, std::move(reflectance)), brdf);
+        std::shared_ptr<const Material> material = make<const Material>(owner->device, std::move(reflectance));
+        material->check_albedo(source, wrong);
+        give<lb_brdf>(materials(), std::move(material), brdf);
     });
 }
 
@@ -108,8 +111,9 @@ BrdfTable table_from(const float* values, size_t count) {
     for (size_t i = 0; i < count; i += 3) {
         float* rgb = &table.rgb[i];
         for (int c = 0; c < 3; ++c)
-            if (!std::isfinite(rgb[c]))
-                throw Error(LB_ERROR_INVALID_ARGUMENT, text("values[", i + size_t(c), "] is ", rgb[c], "; it must be finite"));
+            if (!std::isfinite(rgb[c]) || rgb[c] > largest_reflectance)
+                throw Error(LB_ERROR_INVALID_ARGUMENT, text("values[", i + size_t(c), "] is ", rgb[c], "; it must be finite and at most ",
+                                                            largest_reflectance));
         if (*std::min_element(rgb, rgb + 3) < 0) std::fill(rgb, rgb + 3, -1.0f);
     }
     return table;
@@ -123,7 +127,7 @@ lb_result lb_brdf_load(lb_context context, const char* path, lb_brdf* brdf) {
     return create_brdf(context, brdf, [&](const Context&) -> Brdf {
         require(path, "path");
         return io::read_merl(path);
-    });
+    }, path, LB_ERROR_FORMAT);
 }
 
 lb_result lb_brdf_builtin(lb_context context, const char* name, lb_brdf* brdf) {

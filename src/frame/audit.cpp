@@ -13,8 +13,8 @@ namespace {
 // a quarter or so; their ratio to what the spreads tell to a tenth or so. More of them cost more than they save
 // (docs/decisions/0010).
 constexpr double least_pixels = 288, part_beyond = 1.0 / 192, most_part = 1.0 / 32;
-// Of a small frame this part at most, or nothing would be interpolated.
-constexpr double most_covered = 0.5;
+// Of a small frame this part at most, or nothing would be interpolated; of so few pixels nothing is, and all are looked at.
+constexpr double most_covered = 0.5, few_covered = 64;
 constexpr double fewest = 64, most = 1 << 16;
 
 // A biased sampler's cut and footprints shrink with its samples, and so does their error. Over the scenes of docs/trade.md a pixel of N
@@ -94,7 +94,8 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
     samples = std::clamp(samples, fewest, most);
     // Where time alone is asked for there is none for a probe.
     probe = !planned && (!cut || settings.time_budget() > 0) ? 0 : cut ? samples / gain : probe;
-    return {std::min(pixels / covered_pixels, most_covered), biased ? uint32_t(samples) : 0, uint32_t(probe)};
+    const double part = covered_pixels > few_covered ? std::min(pixels / covered_pixels, most_covered) : 1;
+    return {part, biased ? uint32_t(samples) : 0, uint32_t(probe)};
 }
 
 void AuditSum::add(double square, double told) {
@@ -103,11 +104,12 @@ void AuditSum::add(double square, double told) {
 }
 
 AuditSum::Bias AuditSum::beyond(double noise) const {
+    if (told_.empty()) return {};
     const double told = std::accumulate(told_.begin(), told_.end(), 0.0);
-    if (!(told > 0)) return {};
+    if (!(told > 0)) return {std::max(std::accumulate(squares_.begin(), squares_.end(), 0.0) / double(squares_.size()) - noise, 0.0), 0};
     const double ratio = std::accumulate(squares_.begin(), squares_.end(), 0.0) / told;
     double doubt = 0;  // the ratio's variance
-    for (size_t i = 0; i < told_.size(); ++i) doubt += std::pow((squares_[i] - ratio * told_[i]) / told, 2);
+    for (size_t i = 0; i < told_.size(); ++i) doubt += (1 - part_) * std::pow((squares_[i] - ratio * told_[i]) / told, 2);
     // What was seen beyond its own doubt may also be what was to be expected, if only one had known: a lamp that was missed.
     const double surprise = std::max(std::abs(ratio - 1) - std::sqrt(doubt), 0.0);
     const double expected = expected_doubt * expected_doubt + surprise * surprise, weight = expected / (expected + doubt);

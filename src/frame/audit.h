@@ -55,6 +55,9 @@ struct Audit {
 // What audited pixels err by over what their spreads tell.
 class AuditSum {
 public:
+    // part: of all pixels, that are audited. What is known of all of them is not in doubt.
+    explicit AuditSum(double part = 0) : part_(part) {}
+
     // Squared and relative to what the pixel shows: what it errs by, and what its spread tells.
     void add(double square, double told);
     // Of a pixel that now knows better than its audit. Without it, those that disagreed most, which are audited best, would be left
@@ -78,6 +81,7 @@ public:
     static constexpr double least_true = 0.1;
 
 private:
+    double part_;
     std::vector<double> squares_, told_;
 };
 

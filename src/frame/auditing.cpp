@@ -87,7 +87,7 @@ double Frame::rehearsed(const Job& job, double mean_radiance) const {
 
 // The mean squared error that a probe's pixels have.
 double Frame::probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const {
-    AuditSum sum;
+    AuditSum sum(job.audited);
     for (size_t k = 0; k < probe.size(); ++k) {
         const double scale = scale_of(probe[k].mean, probe[k].expected, forecast.mean_radiance);
         if (!(scale > 0)) continue;

@@ -108,7 +108,8 @@ Control::Control(const Settings& settings, const Forecast& forecast, size_t tile
     if (settings.time_budget() > 0 && !(known && first_cost(forecast.covered, 0) <= light(elapsed))) target_ = 0;
     // Half of the pixels at most, or small frames would not be interpolated.
     witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), smoothness_of(settings).cheap_witnesses, 0.5);
-    scales_.assign(tiles, float(first_scale(elapsed)));
+    scales_.first = float(first_scale(elapsed));
+    scales_.of.assign(tiles, scales_.first);
 }
 
 double Control::first_scale(double elapsed) {
@@ -180,7 +181,7 @@ void Control::follow(const std::vector<ForeseenTile>& tiles) {
     for (size_t i = 0; i < tiles.size(); ++i) {
         if (!(tiles[i].squares > 0)) continue;
         const double step = std::clamp(factor * foresight.deserved[i], 1 / most_foreseen, most_foreseen);
-        scales_[i] = float(std::min(scales_[i] * step, Settings::largest_bandwidth_scale));
+        scales_.of[i] = float(std::min(scales_.of[i] * step, Settings::largest_bandwidth_scale));
     }
 }
 
@@ -249,7 +250,8 @@ bool Control::coarsen(double shaded, double light) {
     const double part = light / (Pace::pixel_samples + fewest_in_time) / std::max(shaded, 1.0);
     if (part >= 1) return false;
     // Pixels shaded grow about as the scale.
-    for (float& scale : scales_) scale *= float(std::max(part, least_part));
+    scales_.first *= float(std::max(part, least_part));
+    scales_.of.assign(scales_.of.size(), scales_.first);
     return true;
 }
 
@@ -339,7 +341,7 @@ bool Control::improve_levels(const ErrorEstimate& estimate, double allowed, doub
         if (estimate.tiles[i].interpolated == 0 || !(seen[i] > 0)) continue;
         const double factor = common > 0 ? std::min(std::pow(seen[i] / common, smoothness_of(settings_).growth_power), most_growth) : most_growth;
         if (!(factor > least_growth)) continue;
-        scales_[i] = float(std::min(scales_[i] * factor, Settings::largest_bandwidth_scale));
+        scales_.of[i] = float(std::min(scales_.of[i] * factor, Settings::largest_bandwidth_scale));
         grown = true;
     }
     return grown;

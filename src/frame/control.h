@@ -45,8 +45,7 @@ public:
     // tiles: of the frame (frame/estimate.h); pace: what the device was last seen to do; elapsed: milliseconds since the frame began.
     Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed);
 
-    // Factor on the bandwidth in each tile, under which levels are chosen.
-    const std::vector<float>& scales() const { return scales_; }
+    const Scales& scales() const { return scales_; }
     // The part of pixels that are shaded although they might be interpolated, to measure what interpolation costs.
     double witnesses() const { return witnesses_; }
     // By how much, relatively, what the pilots expect of a pixel may differ from interpolation of what they expect of its parents.
@@ -105,7 +104,7 @@ private:
     const Forecast forecast_;
     // The error that is asked for; 0: time governs, where no error is asked for, or none that shading every pixel is known to reach in time.
     double target_;
-    std::vector<float> scales_;
+    Scales scales_;
     double witnesses_;
     bool interpolates_;
     double shaded_ = 0;          // pixels

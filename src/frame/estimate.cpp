@@ -66,9 +66,15 @@ std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit,
     return result;
 }
 
+// The part of the covered pixels that is audited.
+double part_of(const RoundPixels& pixels, const std::vector<Audited>& audited) {
+    const auto unseen = std::count(pixels.material.begin(), pixels.material.end(), uint8_t(0));
+    return double(audited.size()) / std::max(double(pixels.material.size()) - double(unseen), 1.0);
+}
+
 // Squared noise over what the replicates tell of it. What they do not tell is not noise that two neighbours would differ by.
 double truth_of_spreads(const RoundPixels& pixels, const std::vector<Audited>& audited) {
-    AuditSum sum;
+    AuditSum sum(part_of(pixels, audited));
     for (const Audited& pixel : audited) pixel.add_to(&sum, pixel.drawn, std::pow(pixels.spread[4 * pixel.at] / pixel.scale, 2));
     return 1 + std::min(sum.beyond(1).mean, 0.0);
 }
@@ -80,12 +86,14 @@ double witnessed(const RoundPixels& pixels, size_t at, double scale, double trut
     return std::clamp(deviation * deviation - truth * difference * difference, -AuditSum::largest_square, AuditSum::largest_square);
 }
 
-// Witnesses stand for the pixels that are interpolated.
+// Witnesses stand for the pixels that are interpolated, where any is.
 void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, double truth, ErrorEstimate* estimate) {
-    AuditSum sum;
+    AuditSum sum(part_of(pixels, audited));
+    const bool interpolated =
+        std::any_of(estimate->slots.begin(), estimate->slots.end(), [](const ErrorEstimate::Slot& slot) { return slot.interpolated > 0; });
     for (const Audited& pixel : audited) {
         const double per_scale = estimate->stratification / (pixel.scale * pixel.scale);
-        if (!is_witness(pixels.decision[pixel.at])) {
+        if (!interpolated || !is_witness(pixels.decision[pixel.at])) {
             pixel.add_to(&sum, pixel.drawn, per_scale * variance_of_mean(pixels, pixel.at));
             continue;
         }

@@ -130,9 +130,9 @@ HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& ma
         made.emplace(device_->gl(), width_, height_, coarsest, variances);
         Forecast forecast;
         forecast.mean_radiance = r.mean_radiance;
-        const std::vector<float> unscaled(size_t(tiles_along(width_)) * tiles_along(height_), 1);
-        passes::pyramids(*device_, forecast, unscaled, r.settings, passes::covered(device_->gl(), r.gbuffer, width_, height_, coarsest), width_, height_,
-                         *r.prediction, *made);
+        const Scales unscaled{std::vector<float>(size_t(tiles_along(width_)) * tiles_along(height_), 1), 1};
+        const passes::Covered covered = passes::covered(device_->gl(), r.gbuffer, width_, height_, coarsest);
+        passes::pyramids(*device_, forecast, unscaled, r.settings, covered, width_, height_, *r.prediction, *made);
     }
     const Pyramids& pyramids = made ? *made : *r.prediction->pyramids;
     const size_t count = size_t(width_) * pyramids.height;

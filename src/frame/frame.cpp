@@ -136,10 +136,10 @@ std::vector<ForeseenTile> Frame::foresee(Job* job, const Control& control, const
     Result& next = *job->result;
     constexpr uint32_t telling_pixels = 6000, most_stride = 16;
     const uint32_t stride = std::clamp(job->covered.all.count / telling_pixels, 1u, most_stride);
-    passes::mirror_cells(*device_, control.scales(), 0, settings, job->slot_of, job->covered, next.gbuffer, next.shading, *next.prediction,
+    passes::mirror_cells(*device_, control.scales(), {}, job->slot_of, job->covered, next.gbuffer, next.shading, *next.prediction,
                          stride);
-    std::vector<ForeseenTile> tiles = passes::foresee(*device_, next.slots, forecast, control.tolerance(), job->slot_of, job->covered,
-                                                      next.gbuffer, *next.prediction, stride);
+    std::vector<ForeseenTile> tiles = passes::foresee(*device_, next.slots, job->scene.light->lamps(), forecast, control.tolerance(),
+                                                      job->slot_of, job->covered, next.gbuffer, *next.prediction, stride);
     const double truth = rehearsed(*job, forecast.mean_radiance) * control.left_by_finer(std::sqrt(double(stride)));
     for (ForeseenTile& tile : tiles) tile.squares *= truth;
     next.plan.finished("foresee", "what interpolation will cost, by the pilots", 0, job->covered.all.count / stride, "pixels");
@@ -157,7 +157,7 @@ void Frame::prepare_interpolation(Job* job, const Forecast& forecast) const {
     if (automatic) {
         own.set_choice("interpolation", "image");
         if (next.prediction->reflected) {
-            const double scale = Control(own, forecast, 1, pace_, elapsed).scales().front();
+            const double scale = Control(own, forecast, 1, pace_, elapsed).scales().first;
             in_image = passes::lattice_pixels(*device_, next.gbuffer, *next.prediction, height_, scale, own.coarsest_level());
             if (in_image > smooth_part * forecast.covered) own.set_choice("interpolation", "directions");
         }
@@ -174,21 +174,22 @@ void Frame::prepare_interpolation(Job* job, const Forecast& forecast) const {
 }
 
 // How fine the bandwidth times the scales that control has chosen asks pixels to be shaded.
-void Frame::choose_levels(Job* job, const Control& control, const Forecast& forecast, double witnesses) const {
+void Frame::choose_levels(Job* job, const Control& control, const Forecast& forecast, const passes::Witnesses& witnesses) const {
     Result& next = *job->result;
-    if (job->scales == control.scales()) return;
-    job->scales = control.scales();
-    const auto [least, most] = std::minmax_element(control.scales().begin(), control.scales().end());
+    const Scales& scales = control.scales();
+    if (job->scales == scales.of) return;
+    job->scales = scales.of;
+    const auto [least, most] = std::minmax_element(scales.of.begin(), scales.of.end());
     const std::string scaled = text(", bandwidth times ", *least, " to ", *most);
     if (next.prediction->pyramids) {
-        passes::pyramids(*device_, forecast, control.scales(), settings, job->covered, width_, height_, *next.prediction,
+        passes::pyramids(*device_, forecast, scales, settings, job->covered, width_, height_, *next.prediction,
                          *next.prediction->pyramids);
         job->tiles = next.tiles();
         const char* made = next.prediction->pyramids->variances ? "least level and largest variance" : "least level";
         next.plan.finished("pyramids", made + std::string(" of each block") + scaled, next.prediction->pyramids->bytes(), pixels(), "pixels");
         return;
     }
-    passes::mirror_cells(*device_, control.scales(), witnesses, settings, job->slot_of, job->covered, next.gbuffer, next.shading,
+    passes::mirror_cells(*device_, scales, witnesses, job->slot_of, job->covered, next.gbuffer, next.shading,
                          *next.prediction);
     job->tiles = next.tiles();
     next.plan.finished("cells", "pixels by mirror direction, one of each cell to be shaded" + scaled, next.prediction->mirrors->bytes(),
@@ -199,10 +200,11 @@ void Frame::choose_levels(Job* job, const Control& control, const Forecast& fore
 void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
-    const double witnesses = std::max(control->witnesses(), job->audited);
+    const passes::Witnesses witnesses{control->witnesses(), job->audited, settings.seed(), next.stats.rounds};
     const bool interpolates = prediction != nullptr && prediction->interpolates();
     if (interpolates) choose_levels(job, *control, forecast, witnesses);
-    job->counts = passes::classify(*device_, job->slot_of, next.slots, job->settings, witnesses, forecast, control->tolerance(),
+    job->counts = passes::classify(*device_, job->slot_of, next.slots, job->settings,
+                                   interpolates ? job->scene.light->lamps() : std::vector<Lamp>(), witnesses, forecast, control->tolerance(),
                                    job->redraw.bins, width_, job->covered, next.gbuffer, prediction, next.shading);
     next.plan.finished("classify", interpolates ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");

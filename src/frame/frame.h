@@ -10,6 +10,7 @@
 #include "frame/plan.h"
 #include "frame/settings.h"
 #include "frame/targets.h"
+#include "passes/dispatch.h"
 #include "passes/shade.h"
 #include "scene/scene.h"
 
@@ -60,7 +61,7 @@ private:
     void rounds(Job* job, const Forecast& forecast);
     void prepare_interpolation(Job* job, const Forecast& forecast) const;
     std::vector<ForeseenTile> foresee(Job* job, const Control& control, const Forecast& forecast) const;
-    void choose_levels(Job* job, const Control& control, const Forecast& forecast, double witnesses) const;
+    void choose_levels(Job* job, const Control& control, const Forecast& forecast, const passes::Witnesses& witnesses) const;
     void decide(Job* job, Control* control, const Forecast& forecast) const;
     void list(Job* job, Control* control, const Forecast& forecast) const;
     void shade(Job* job, const passes::Seeds& seeds) const;

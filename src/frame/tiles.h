@@ -12,6 +12,12 @@ struct Tiles {
     std::vector<uint32_t> of;  // of each pixel
 };
 
+// Factors on the bandwidth under which levels are chosen: in each tile; and in all before anything was seen of them.
+struct Scales {
+    std::vector<float> of;
+    float first = 1;
+};
+
 // What the pilots foresee of a tile: pixels to be interpolated and to be shaded, and the sum of the former's squared errors.
 struct ForeseenTile {
     double interpolated, shaded, squares;

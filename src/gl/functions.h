@@ -61,6 +61,7 @@
     X(PFNGLPROGRAMUNIFORM1UIVPROC, ProgramUniform1uiv)     \
     X(PFNGLPROGRAMUNIFORM2IPROC, ProgramUniform2i)         \
     X(PFNGLPROGRAMUNIFORM3FPROC, ProgramUniform3f)         \
+    X(PFNGLPROGRAMUNIFORM4FPROC, ProgramUniform4f)         \
     X(PFNGLPROGRAMUNIFORMMATRIX3FVPROC, ProgramUniformMatrix3fv) \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv) \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                 \

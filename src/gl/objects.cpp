@@ -130,6 +130,9 @@ void Program::set(const char* uniform, int32_t x, int32_t y) const {
 void Program::set(const char* uniform, const float (&v)[3]) const {
     gl_->ProgramUniform3f(name_, location(uniform), v[0], v[1], v[2]);
 }
+void Program::set(const char* uniform, const float (&v)[4]) const {
+    gl_->ProgramUniform4f(name_, location(uniform), v[0], v[1], v[2], v[3]);
+}
 void Program::set_matrix3(const char* uniform, const float* columns) const {
     gl_->ProgramUniformMatrix3fv(name_, location(uniform), 1, GL_FALSE, columns);
 }

@@ -101,6 +101,7 @@ public:
     void set(const char* uniform, uint32_t value) const;
     void set(const char* uniform, int32_t x, int32_t y) const;
     void set(const char* uniform, const float (&v)[3]) const;
+    void set(const char* uniform, const float (&v)[4]) const;
     void set_matrix3(const char* uniform, const float* columns) const;
     void set_matrix4(const char* uniform, const float* columns) const;
     void set_array(const char* uniform, const uint32_t* values, int32_t count) const;

@@ -91,8 +91,8 @@ std::array<float, 3> parse_cell(const std::vector<uint8_t>& bytes, size_t cell, 
         const double stored = load_double(&bytes[header_bytes + (channel * cell_count + cell) * value_bytes]);
         if (!std::isfinite(stored)) reject_cell(LB_ERROR_FORMAT, name, cell, channel, stored, "is not finite");
         const double scaled = stored * channel_scale[channel];
-        if (std::abs(scaled) > std::numeric_limits<float>::max())
-            reject_cell(LB_ERROR_FORMAT, name, cell, channel, stored, "exceeds the range of float32 after scaling");
+        if (scaled > double(largest_reflectance))
+            reject_cell(LB_ERROR_FORMAT, name, cell, channel, stored, "exceeds 1e9 per steradian after scaling");
         rgb[channel] = float(scaled);
         measured = measured && scaled >= 0;
     }

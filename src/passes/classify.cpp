@@ -44,19 +44,20 @@ Histogram Counts::fresh_bins() const {
 }
 
 Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
+                const std::vector<Lamp>& lamps, const Witnesses& witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
                 uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
     const bool further = !former_bins.empty();
-    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + (further ? "\nFURTHER_ROUND" : ""));
+    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + lamp_definitions(lamps) + (further ? "\nFURTHER_ROUND" : ""));
     gl::Texture former;
     if (further) {
         former = gl::Texture::image(gl, GL_R8UI, width, uint32_t(former_bins.size() / width));
         former.upload(width, uint32_t(former_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, former_bins.data());
     }
-    set_witnesses(program, witnesses, settings.seed());
+    witnesses.set(program);
+    set_lamps(program, lamps);
     program.use();
     bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 2, gbuffer.material);

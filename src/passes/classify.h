@@ -4,6 +4,7 @@
 #include "frame/budget.h"
 #include "frame/settings.h"
 #include "frame/targets.h"
+#include "passes/dispatch.h"
 #include "passes/predict.h"
 #include "scene/scene.h"
 
@@ -17,11 +18,11 @@ struct Counts {
     Histogram fresh_bins() const;  // of what no former round shaded
 };
 
-// Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: the part of
-// those that might be interpolated that are shaded all the same. tolerance: shaders/pilots_say.glsl. former_bins: of
+// Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: of those that might
+// be interpolated, which are shaded all the same. tolerance: shaders/pilots_say.glsl. former_bins: of
 // the pixels that former rounds shaded; empty in the first.
 Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                double witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
+                const std::vector<Lamp>& lamps, const Witnesses& witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
                 uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
 
 // The pixels to shade: slot by slot, those of former rounds apart, by falling sample count.

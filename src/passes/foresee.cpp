@@ -12,8 +12,8 @@ constexpr double most_units = 1u << 30;  // of all squared errors, each of toler
 
 }  // namespace
 
-std::vector<ForeseenTile> foresee(gl::Device& device, size_t slots, const Forecast& forecast, double tolerance, const SlotTable& slot_of,
-                                  const Covered& covered, const GBuffer& gbuffer, const Prediction& prediction,
+std::vector<ForeseenTile> foresee(gl::Device& device, size_t slots, const std::vector<Lamp>& lamps, const Forecast& forecast,
+                                  double tolerance, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer, const Prediction& prediction,
                                   uint32_t stride) {
     const gl::Functions& gl = device.gl();
     const MirrorCells& mirrors = *prediction.mirrors;
@@ -24,7 +24,8 @@ std::vector<ForeseenTile> foresee(gl::Device& device, size_t slots, const Foreca
     const gl::Buffer buffer(gl, std::max<size_t>(sums.size(), 1) * sizeof(Sums), nullptr);
     buffer.clear();
     const float units = float(most_units / (tolerance * tolerance * (covered.all.count / stride + 1)));
-    const gl::Program& program = device.compute("foresee", mirrors.definitions() + "\nSTRIDE");
+    const gl::Program& program = device.compute("foresee", mirrors.definitions() + "\nSTRIDE" + lamp_definitions(lamps));
+    set_lamps(program, lamps);
     program.set("units", units);
     program.set("tolerance", float(tolerance));
     program.set("mean_radiance", float(forecast.mean_radiance));

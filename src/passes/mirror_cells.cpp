@@ -8,18 +8,18 @@
 
 namespace lightband::passes {
 
-void mirror_cells(gl::Device& device, const std::vector<float>& scales, double witnesses, const Settings& settings,
+void mirror_cells(gl::Device& device, const Scales& scales, const Witnesses& witnesses,
                   const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer, const Shading& shading,
                   const Prediction& prediction, uint32_t stride) {
     const MirrorCells& target = *prediction.mirrors;
     const gl::Functions& gl = device.gl();
-    const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.size(), 1) * sizeof(float), scales.data());
+    const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.of.size(), 1) * sizeof(float), scales.of.data());
     const gl::Texture scales_texture = gl::Texture::of_buffer(gl, GL_R32F, scale_buffer);
     for (const Table* table : {&target.claims, &target.counts, &target.occupants}) table->buffer.clear();
 
     const auto run = [&](const char* name, const auto& bind) {
         const gl::Program& program = device.compute(name, target.definitions() + "\nSTRIDE");
-        set_witnesses(program, witnesses, settings.seed());
+        witnesses.set(program);
         program.use();
         bind_surfaces(gl, program, gbuffer);
         bind_texture(gl, 2, gbuffer.material);
@@ -32,6 +32,7 @@ void mirror_cells(gl::Device& device, const std::vector<float>& scales, double w
     const float wider = float(1 / std::sqrt(double(stride)));
     run("claim_cells", [&](const gl::Program& program) {
         program.set("wider", wider);
+        program.set("first_scale", scales.first);
         bind_texture(gl, 4, prediction.reflected);
         bind_texture(gl, 5, scales_texture);
         bind_texture(gl, 6, prediction.prediction);

@@ -2,15 +2,15 @@
 // shaded: what interpolation over directions needs (docs/decisions/0012).
 #pragma once
 
-#include "frame/settings.h"
 #include "passes/covered.h"
+#include "passes/dispatch.h"
 #include "passes/predict.h"
 
 namespace lightband::passes {
 
-// scales: factor on the bandwidth in each tile of directions (frame/tiles.h). witnesses: the part of pixels that is drawn by chance.
+// scales: of tiles of directions (frame/tiles.h). witnesses: pixels that do not speak for others.
 // shading: what former rounds shaded, which speaks first. stride: of the covered pixels, every so manieth, in cells as much wider.
-void mirror_cells(gl::Device& device, const std::vector<float>& scales, double witnesses, const Settings& settings,
+void mirror_cells(gl::Device& device, const Scales& scales, const Witnesses& witnesses,
                   const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer, const Shading& shading,
                   const Prediction& prediction, uint32_t stride = 1);
 

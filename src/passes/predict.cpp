@@ -113,7 +113,7 @@ double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Predicti
     });
 }
 
-void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales, const Settings& settings,
+void pyramids(gl::Device& device, const Forecast& forecast, const Scales& scales, const Settings& settings,
               const Covered& covered, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target) {
     const gl::Functions& gl = device.gl();
     const std::string definitions = target.variances ? "VARIANCES" : "";
@@ -126,10 +126,11 @@ void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<fl
     gl.ClearTexImage(target.levels.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &nothing_seen);
     if (target.variances) gl.ClearTexImage(target.variances.name(), 0, GL_RED, GL_FLOAT, nullptr);
 
-    const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.size(), 1) * sizeof(float), scales.data());
+    const gl::Buffer scale_buffer(gl, std::max<size_t>(scales.of.size(), 1) * sizeof(float), scales.of.data());
     const gl::Texture scales_texture = gl::Texture::of_buffer(gl, GL_R32F, scale_buffer);
     const gl::Program& finest = device.compute("levels", text("TILE_SIDE ", tile_side, "\n") + definitions);
     bind(finest);
+    finest.set("first_scale", scales.first);
     finest.set("coarsest_level", int32_t(settings.coarsest_level()));
     finest.set("mean_radiance", float(forecast.mean_radiance));
     bind_texture(gl, 0, prediction.prediction);

@@ -26,8 +26,8 @@ double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Predicti
                       uint32_t coarsest_level);
 
 // Levels (eq. 11) and, where target holds them, relative variances with their min and max pyramids (shaders/levels.glsl,
-// pyramid.glsl). scales: factor on the bandwidth in each tile of the picture (frame/tiles.h).
-void pyramids(gl::Device& device, const Forecast& forecast, const std::vector<float>& scales, const Settings& settings,
+// pyramid.glsl). scales: of tiles of the picture (frame/tiles.h).
+void pyramids(gl::Device& device, const Forecast& forecast, const Scales& scales, const Settings& settings,
               const Covered& covered, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target);
 
 }  // namespace lightband::passes

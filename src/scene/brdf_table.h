@@ -8,6 +8,10 @@
 
 namespace lightband {
 
+// Under one of the smallest cells 2e6 per steradian would reflect all light; prediction and noise square what is reflected, and up to here,
+// under the brightest map (largest_radiance), the squares of what a sample brings stay within float.
+constexpr float largest_reflectance = 1e9f;
+
 struct BrdfTable {
     static constexpr uint32_t theta_half_cells = 90;
     static constexpr uint32_t theta_diff_cells = 90;

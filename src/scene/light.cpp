@@ -26,6 +26,11 @@ Light::Light(gl::DevicePtr device, RgbImage map) : device_(std::move(device)), m
     device_->check("uploading an environment");
 }
 
+const std::vector<Lamp>& Light::lamps() const {
+    if (!lamps_) lamps_ = lightband::lamps(map_);
+    return *lamps_;
+}
+
 const EnvironmentBandwidth& Light::bandwidth(BandRule rule) const {
     auto found = bandwidths_.find(rule);
     if (found == bandwidths_.end())

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "bandwidth/wavelet.h"
 #include "gl/objects.h"
+#include "sampling/lamps.h"
 #include "sampling/light_tree.h"
 #include "sampling/map_sampler.h"
 #include "scene/environment.h"
@@ -50,6 +52,7 @@ public:
     const RgbImage& map() const { return map_; }
     const gl::Texture& texture() const { return texture_; }
     const MapSampler& sampler() const { return sampler_; }
+    const std::vector<Lamp>& lamps() const;
     const EnvironmentBandwidth& bandwidth(BandRule rule) const;
     // Drawn anew when lookup or seed change.
     const MapPoints& points(Lookup lookup, uint32_t seed) const;
@@ -62,6 +65,7 @@ private:
     const RgbImage map_;
     const MapSampler sampler_;
     gl::Texture texture_;  // RGB radiance; alpha: the sampler's density, per steradian
+    mutable std::optional<std::vector<Lamp>> lamps_;
     mutable std::map<BandRule, EnvironmentBandwidth> bandwidths_;
     mutable MapPoints points_;
     mutable std::pair<Lookup, uint32_t> points_key_;

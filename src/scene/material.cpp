@@ -13,6 +13,15 @@ Material::Material(gl::DevicePtr device, Brdf brdf)
     if (const auto* table = std::get_if<BrdfTable>(&brdf_)) upload_table(*table);
 }
 
+void Material::check_albedo(const std::string& source, lb_result code) const {
+    const std::vector<float>& albedos = sampler_.table().albedo;
+    const auto most = std::max_element(albedos.begin(), albedos.end());
+    if (most == albedos.end() || *most <= largest_albedo) return;
+    const double degrees = (double(most - albedos.begin()) + 0.5) * 90 / LobeTable::views;
+    throw Error(code, text(source, ": it reflects ", *most, " times the light that falls in at ", degrees, " degrees; at most ",
+                           largest_albedo, " are taken"));
+}
+
 // Four halves a cell: RGB divided by a power of two that brings the largest value to at most 2^15, and whether the cell was
 // measured. A half keeps 11 bits, 2^-12 of relative rounding, down to 2^-29 of the largest value.
 void Material::upload_table(const BrdfTable& table) {

@@ -18,6 +18,10 @@ public:
 
     const gl::DevicePtr& device() const { return device_; }
     const Brdf& brdf() const { return brdf_; }
+    // Throws code where a table reflects more than so many times the light from some direction; the message names source and value. Nothing
+    // real reflects more than once that; what noise squares, under the brightest map (largest_radiance), stays within float.
+    static constexpr double largest_albedo = 100;
+    void check_albedo(const std::string& source, lb_result code) const;
 
     // Definitions of the lobe.glsl variant, and binding of its tables and uniforms.
     std::string definitions(Lookup lookup) const;

@@ -44,15 +44,29 @@ void drop_empty(Triangles* mesh) {
     if (kept == 0) throw Error(LB_ERROR_INVALID_ARGUMENT, text("mesh: all ", count, " triangles have zero area"));
 }
 
+// Area-weighted. Where triangles of both windings share a vertex, as of a sheet that was given two sides, their sum says nothing: there
+// the largest of them speaks.
 void compute_normals(Triangles* mesh) {
-    std::vector<Vec3> sums(mesh->vertex_count(), Vec3(0));
-    for (size_t t = 0; t < mesh->indices.size() / 3; ++t)
-        for (int corner = 0; corner < 3; ++corner) sums[mesh->indices[3 * t + size_t(corner)]] += facet(*mesh, t);
+    const size_t vertices = mesh->vertex_count();
+    std::vector<Vec3> sums(vertices, Vec3(0)), largest(vertices, Vec3(0));
+    std::vector<double> areas(vertices);
+    for (size_t t = 0; t < mesh->indices.size() / 3; ++t) {
+        const Vec3 own = facet(*mesh, t);
+        const double area = glm::length(own);
+        for (int corner = 0; corner < 3; ++corner) {
+            const uint32_t vertex = mesh->indices[3 * t + size_t(corner)];
+            sums[vertex] += own;
+            areas[vertex] += area;
+            if (area > glm::length(largest[vertex])) largest[vertex] = own;
+        }
+    }
+    // Positions are floats: facets that cancel leave up to a rounding (2^-24) of each of theirs.
+    constexpr double cancelled = 1e-6;
     mesh->normals.resize(mesh->positions.size());
-    for (size_t i = 0; i < sums.size(); ++i) {
-        const double length = glm::length(sums[i]);
+    for (size_t i = 0; i < vertices; ++i) {
+        const Vec3 told = glm::length(sums[i]) > cancelled * areas[i] ? sums[i] : largest[i];
         // A vertex without triangles is never drawn; any unit normal serves.
-        const Vec3 n = length > 0 ? sums[i] / length : Vec3(0, 0, 1);
+        const Vec3 n = areas[i] > 0 ? glm::normalize(told) : Vec3(0, 0, 1);
         for (int c = 0; c < 3; ++c) mesh->normals[3 * i + size_t(c)] = float(n[c]);
     }
 }

@@ -120,6 +120,21 @@ def test_an_error_cannot_be_asked_of_accumulated_frames(context, scene):
         frame.render(scene)
 
 
+@pytest.mark.parametrize("size", [1, 2, 4, 8])
+def test_tiny_frames_know_their_bias(context, size):
+    """Under constant light every sample of a cut errs alike, and no spread tells of it: all of so few pixels are audited. An audit shows
+    what 1 / (1 + 0.3 / 4^1.2) of the square would be (src/frame/audit.cpp), and errs by as much as it foresees wrongly."""
+    scene = context.scene()
+    scene.environment = context.environment(np.ones((8, 16, 3), np.float32))
+    scene.add(context.builtin_mesh("plane"), context.lambert(0.5))
+    scene.camera(eye=(0, 0, 0.6), target=(0, 0, 0))
+    frame = context.frame(size, size)
+    frame.render(scene)
+    true = np.sqrt(np.mean(((luminance(frame) - 0.5) / 0.505) ** 2))
+    assert frame.stats.audited_pixels == size * size
+    assert true > 0.005 and true / 1.6 < frame.stats.error < 1.6 * true
+
+
 def test_a_black_frame_has_no_error(context):
     scene = context.scene()
     scene.environment = context.environment(np.zeros((4, 8, 3), np.float32))

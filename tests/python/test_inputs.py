@@ -194,6 +194,8 @@ REFUSED: list[tuple[str, type[Exception], str]] = [
     ("context.builtin_brdf(3)", TypeError, "builtin_brdf"),
     ("context.table_brdf(np.zeros((90, 90, 180)))", lightband.InvalidArgument, r"table: shape \(90, 90, 180\)"),
     ("context.table_brdf(np.full((90, 90, 180, 3), np.nan))", lightband.InvalidArgument, "finite"),
+    ("context.table_brdf(np.full((90, 90, 180, 3), 1.1e9))", lightband.InvalidArgument, r"values\[0\] is 1.1e\+09.*at most 1e\+09"),
+    ("context.table_brdf(np.full((90, 90, 180, 3), 1e4))", lightband.InvalidArgument, "values: it reflects .* times the light .* at most 100"),
     ("context.lambert(1.5)", lightband.InvalidArgument, "albedo"),
     ("context.lambert(-0.1)", lightband.InvalidArgument, "albedo"),
     ("context.lambert(np.nan)", lightband.InvalidArgument, "albedo"),

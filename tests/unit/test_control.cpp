@@ -160,15 +160,15 @@ void noise_asks_for_samples_and_interpolation_for_levels(void**) {
     const Settings settings = asking("target_error", 0.05);
     Control control(settings, {1520, 1, 1}, 2, {}, 0);
     const Budget first = control.plan(some_histogram(), 0);
-    const float scale = control.scales()[0];
+    const float scale = control.scales().of[0];
     assert_true(control.again(estimate_of(0.2 * 0.2, 0), {}));
-    assert_true(control.scales()[0] == scale);
+    assert_true(control.scales().of[0] == scale);
     check_close("part, to a quarter of the noise at most in one round", control.wanted_part(), 0.25, 0);
     // The budget stays: pixels move to other bins of it.
     assert_true(control.plan_further({}, Histogram(budget_bins), 0) == first);
     assert_true(control.again(estimate_of(0.02 * 0.02, 0.1 * 0.1), {}));
-    assert_true(control.scales()[0] > scale);
-    assert_true(control.scales()[1] == scale);  // where no witness saw any error
+    assert_true(control.scales().of[0] > scale);
+    assert_true(control.scales().of[1] == scale);  // where no witness saw any error
 }
 
 // Few witnesses may see an error by chance: while there is noise to blame, a tile's are not believed alone.
@@ -178,12 +178,12 @@ void a_single_witness_is_doubted_while_there_is_noise(void**) {
     for (const bool noisy : {true, false}) {
         Control control(settings, {1520, 1, 1}, 2, {}, 0);
         control.plan(some_histogram(), 0);
-        const float scale = control.scales()[0];
+        const float scale = control.scales().of[0];
         ErrorEstimate estimate = estimate_of((noisy ? 2 : 0.9) * allowed, 0.03 * 0.03);
         estimate.interpolation_deviation = 0.04 * 0.04;
         estimate.tiles = {{300, 8, 0.5, 0.25}, {300, 200, 0, 0}};  // one of eight, by 70 %
         assert_true(control.again(estimate, {}));
-        assert_true((control.scales()[0] > scale) != noisy);
+        assert_true((control.scales().of[0] > scale) != noisy);
     }
 }
 

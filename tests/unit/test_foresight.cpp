@@ -57,14 +57,14 @@ void levels_follow_what_is_foreseen(void**) {
     forecast.covered = 1000;
     forecast.mean_radiance = forecast.relative_deviation = 1;
     Control control(settings, forecast, 3, {}, 0);
-    const float before = control.scales()[0];
+    const float before = control.scales().of[0];
     control.follow({{400, 50, 8}, {400, 50, 2}, {0, 100, 0}});
-    const double first = double(control.scales()[0] / before), second = double(control.scales()[1] / before);
+    const double first = double(control.scales().of[0] / before), second = double(control.scales().of[1] / before);
     const double left = 8 * std::pow(first, -1.5) + 2 * std::pow(second, -1.5);
     check_close("squares left", left / (1000.0 / 64), 1, 1e-5);
     // What errs four times as much for as many pixels becomes finer by the 3.5th root of it.
     check_close("share of the tiles", first / second, std::pow(4, 1 / 3.5), 1e-5);
-    assert_true(control.scales()[2] == before);
+    assert_true(control.scales().of[2] == before);
 }
 
 // Of 10,000 pixels at 5 %, of which a probe of 32 samples leaves 3 %: all of them cost 620,000 samples and less.

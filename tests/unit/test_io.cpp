@@ -169,7 +169,7 @@ void test_merl_round_trip(void**) {
     for (size_t i = 0; i < table.rgb.size(); ++i)
         table.rgb[i] = std::ldexp(1.0f + float(i % 4093) / 4096, int(i % 40) - 20);
     for (size_t channel = 0; channel < 3; ++channel) table.rgb[300 + channel] = -1;
-    table.rgb[600] = FLT_MAX / 2;
+    table.rgb[600] = 9.9e8f;
     write_merl(folder.file("a.binary"), table);
     assert_int_equal(std::filesystem::file_size(folder.file("a.binary")), merl_bytes);
     // The double between carries each float32 through the division and the multiplication without a change.
@@ -207,18 +207,20 @@ void test_merl_sizes(void**) {
 void test_merl_cells(void**) {
     const Bytes zeros = merl_header(90, 90, 180, merl_bytes);
     const size_t cell = BrdfTable::cell(12, 34, 56);
-    const double bad_values[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1e43};
+    const double bad_values[] = {NAN, INFINITY, -INFINITY, 1e300, 1.6e12};
     for (const double value : bad_values) {
         Bytes bytes = zeros;
         put_double(bytes, cell, 2, value);
         put_double(bytes, cell, 0, -1);  // does not excuse the other channel
-        const char* reason = std::isfinite(value) ? "float32" : "not finite";
+        const char* reason = std::isfinite(value) ? "1e9 per steradian" : "not finite";
         expect_error(LB_ERROR_FORMAT, {"theta_half 12, theta_diff 34, phi_diff 56", "blue", reason},
                      [&] { parse(bytes); });
     }
     Bytes large = zeros;
-    put_double(large, cell, 0, 5e41);  // 5e41 / 1500 = 3.33e38, just below FLT_MAX = 3.40e38
-    assert_true(std::isfinite(parse(large).rgb[cell * 3]));
+    put_double(large, cell, 0, 1.49e12);  // 1.49e12 / 1500 is just below 1e9
+    put_double(large, cell + 1, 0, -1e300);  // not measured
+    const BrdfTable table = parse(large);
+    assert_true(table.rgb[cell * 3] > 9.9e8f && table.rgb[(cell + 1) * 3] == -1);
 }
 
 void test_merl_writing_bad_tables(void**) {

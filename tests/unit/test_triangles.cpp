@@ -108,6 +108,15 @@ void computed_normals_weigh_by_area(void**) {
     for (int c = 0; c < 3; ++c) check_close("normal", double(mesh.normals[size_t(c)]), expected[c], 1e-7);
 }
 
+// A sheet that was given two sides, of the same corners: their sum says nothing, and may be anything where it does not vanish to the bit.
+void two_windings_cancel_no_normal(void**) {
+    Description description;
+    description.normals.clear();
+    description.indices = {0, 1, 2, 2, 1, 3, 0, 2, 1, 2, 3, 1};
+    const Triangles mesh = Triangles::from(description.desc());
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) check_close("normal", std::abs(double(mesh.normals[3 * i + 2])), 1, 0);
+}
+
 // What each corner of each triangle shows, triangles in an order that only this gives them; each starts at its least corner.
 std::vector<std::vector<std::vector<float>>> corners_of(const Triangles& mesh) {
     std::vector<std::vector<std::vector<float>>> triangles;
@@ -292,6 +301,7 @@ int main() {
         cmocka_unit_test(bad_triangles_are_named),
         cmocka_unit_test(empty_triangles_are_dropped_and_normals_computed),
         cmocka_unit_test(computed_normals_weigh_by_area),
+        cmocka_unit_test(two_windings_cancel_no_normal),
         cmocka_unit_test(order_for_drawing_changes_the_order_alone),
         cmocka_unit_test(normals_agree_with_facets),
         cmocka_unit_test(shapes_are_closed_and_wound_outwards),
