@@ -1,7 +1,7 @@
 // What an interpolated pixel shows, and what a witness is held against: at a witness, which was shaded, the interpolated value is only
 // compared; the host judges it (src/frame/estimate.cpp).
 layout(binding = 4) uniform usampler2D sample_counts;
-layout(binding = 0, rgba32f) uniform image2D radiances;  // src/frame/targets.h
+layout(binding = 0, rgba32f) uniform image2D radiances;  // src/picture/targets.h
 layout(binding = 2, rgba32f) uniform image2D spreads;
 
 // Variance of the luminance that a pixel holds, as if its samples were independent.

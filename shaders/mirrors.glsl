@@ -38,7 +38,7 @@ int cell_index(uint slot, int level, ivec2 cell) {
     return int(slot) * cells_below(last_level + 1) + cells_below(level) + (cell.y << level) + cell.x;
 }
 
-// What interpolation costs is held against bandwidth in tiles: the cells of the first level (src/frame/tiles.h).
+// What interpolation costs is held against bandwidth in tiles: the cells of the first level (src/picture/tiles.h).
 int tile_of(uint slot, ivec2 cell) { return (int(slot) << 2 * first_level) + (cell.y << first_level) + cell.x; }
 
 // Radians across a cell around a direction, by its solid angle.

@@ -159,7 +159,7 @@ void main() {
     ivec2 at = ivec2(entry & 0xffffu, entry >> 16);
     uint wanted = samples[bin_of(texelFetch(decisions, at, 0).r)], stored = imageLoad(sample_counts, at).r;
     uint had = part * uint(PART_SAMPLES), total = min(wanted, had + uint(PART_SAMPLES));
-    // What a former round drew stays, or is drawn anew (src/frame/budget.h).
+    // What a former round drew stays, or is drawn anew (src/picture/budget.h).
     if (part == 0u ? wanted < WORTH_REDRAWING * stored : stored != (had | unfinished)) return;
     // The first replicate holds the odd sample. One sample alone has no spread; it is taken to be as uncertain as it is bright.
     uvec2 had_each = uvec2((had + 1u) / 2u, had / 2u), each = uvec2((total + 1u) / 2u, total / 2u);

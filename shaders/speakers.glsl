@@ -2,7 +2,7 @@
 #include "lamps.glsl"
 #include "neighbours.glsl"
 #include "pilots_say.glsl"
-layout(binding = 8) uniform usampler2D cells;  // src/frame/targets.h, MirrorCells
+layout(binding = 8) uniform usampler2D cells;  // src/picture/targets.h, MirrorCells
 layout(binding = 9) uniform usamplerBuffer claims;
 
 bool speaks(uint place, uint word, uint slot) {

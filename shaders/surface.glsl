@@ -1,4 +1,4 @@
-// What the geometry pass saw through each pixel: src/frame/targets.h, GBuffer.
+// What the geometry pass saw through each pixel: src/picture/targets.h, GBuffer.
 #include "rays.glsl"
 layout(binding = 14) uniform sampler2D surfaces;
 

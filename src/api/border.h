@@ -6,10 +6,10 @@
 #include <string>
 
 #include "api/handles.h"
+#include "assets/scene.h"
 #include "frame/frame.h"
 #include "frame/host_array.h"
 #include "gl/device.h"
-#include "scene/scene.h"
 
 namespace lightband::api {
 

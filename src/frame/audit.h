@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "frame/settings.h"
+#include "picture/settings.h"
 
 namespace lightband {
 

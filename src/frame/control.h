@@ -4,20 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "frame/budget.h"
 #include "frame/estimate.h"
-#include "frame/settings.h"
+#include "picture/budget.h"
+#include "picture/forecast.h"
+#include "picture/settings.h"
 
 namespace lightband {
-
-// What a frame's prediction amounts to, over its covered pixels.
-struct Forecast {
-    double covered = 0;             // pixels
-    double mean_radiance = 0;       // luminance
-    double relative_deviation = 0;  // mean of one light sample's standard deviation over the pixel's radiance
-    double probed_error = 0;        // mean square that a probe's samples leave of every pixel; 0: not probed
-    uint32_t probe_samples = 0;     // of each
-};
 
 // What a round cost.
 struct RoundCost {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "frame/decision.h"
+#include "picture/decision.h"
 
 namespace lightband {
 namespace {

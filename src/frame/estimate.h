@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frame/audit.h"
-#include "frame/tiles.h"
+#include "picture/tiles.h"
 
 namespace lightband {
 

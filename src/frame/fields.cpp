@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "frame/decision.h"
 #include "frame/result.h"
+#include "picture/decision.h"
 
 namespace lightband {
 namespace {

@@ -1,18 +1,21 @@
 // A picture: from scene and settings to passes, run in order, and their fields.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "assets/scene.h"
+#include "frame/audit.h"
+#include "frame/control.h"
 #include "frame/host_array.h"
 #include "frame/plan.h"
-#include "frame/settings.h"
-#include "frame/targets.h"
-#include "passes/dispatch.h"
 #include "passes/shade.h"
-#include "scene/scene.h"
+#include "passes/uniforms.h"
+#include "picture/settings.h"
+#include "picture/targets.h"
 
 namespace lightband {
 

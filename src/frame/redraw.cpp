@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "frame/decision.h"
+#include "picture/decision.h"
 
 namespace lightband {
 namespace {

@@ -1,8 +1,8 @@
 // What a further round is to draw anew: the pixels at which more samples lessen the frame's error most, by what former rounds measured.
 #pragma once
 
-#include "frame/budget.h"
 #include "frame/estimate.h"
+#include "picture/budget.h"
 
 namespace lightband {
 

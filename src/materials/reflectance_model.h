@@ -4,8 +4,8 @@
 #include <cstddef>
 
 #include "base/math.h"
-#include "scene/brdf_table.h"
 #include "materials/direction_pair.h"
+#include "scene/brdf_table.h"
 
 namespace lightband {
 

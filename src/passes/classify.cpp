@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 #include "passes/gbuffer.h"
+#include "passes/uniforms.h"
 
 namespace lightband::passes {
 namespace {

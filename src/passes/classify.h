@@ -1,12 +1,12 @@
 // Which pixels are shaded and with how many samples; the compacted list of them.
 #pragma once
 
-#include "frame/budget.h"
-#include "frame/settings.h"
-#include "frame/targets.h"
-#include "passes/dispatch.h"
+#include "assets/scene.h"
 #include "passes/predict.h"
-#include "scene/scene.h"
+#include "passes/uniforms.h"
+#include "picture/budget.h"
+#include "picture/settings.h"
+#include "picture/targets.h"
 
 namespace lightband::passes {
 

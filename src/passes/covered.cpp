@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "frame/decision.h"
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
+#include "picture/decision.h"
 
 namespace lightband::passes {
 namespace {

@@ -1,7 +1,7 @@
 // The covered pixels as a list, so that passes cost nothing where no mesh is seen.
 #pragma once
 
-#include "frame/targets.h"
+#include "picture/targets.h"
 
 namespace lightband::passes {
 

@@ -1,10 +1,10 @@
 // What interpolation over directions will cost, before a sample is drawn (docs/decisions/0012).
 #pragma once
 
-#include "frame/settings.h"
-#include "frame/tiles.h"
 #include "passes/covered.h"
 #include "passes/predict.h"
+#include "picture/settings.h"
+#include "picture/tiles.h"
 
 namespace lightband::passes {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 
 namespace lightband::passes {
 namespace {

@@ -1,8 +1,8 @@
 // Section 3, "Render G-buffers": normal, depth and instance of what each pixel sees.
 #pragma once
 
-#include "frame/targets.h"
-#include "scene/scene.h"
+#include "assets/scene.h"
+#include "picture/targets.h"
 
 namespace lightband::passes {
 

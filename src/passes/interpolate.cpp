@@ -1,6 +1,6 @@
 #include "passes/interpolate.h"
 
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 #include "passes/gbuffer.h"
 
 namespace lightband::passes {

@@ -1,9 +1,9 @@
 // Section 3.2: the pixels that are not shaded take their values from those that are.
 #pragma once
 
-#include "frame/settings.h"
 #include "passes/covered.h"
 #include "passes/predict.h"
+#include "picture/settings.h"
 
 namespace lightband::passes {
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 #include "passes/gbuffer.h"
+#include "passes/uniforms.h"
 
 namespace lightband::passes {
 

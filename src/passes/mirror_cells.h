@@ -3,12 +3,12 @@
 #pragma once
 
 #include "passes/covered.h"
-#include "passes/dispatch.h"
 #include "passes/predict.h"
+#include "passes/uniforms.h"
 
 namespace lightband::passes {
 
-// scales: of tiles of directions (frame/tiles.h). witnesses: pixels that do not speak for others.
+// scales: of tiles of directions (picture/tiles.h). witnesses: pixels that do not speak for others.
 // shading: what former rounds shaded, which speaks first. stride: of the covered pixels, every so manieth, in cells as much wider.
 void mirror_cells(gl::Device& device, const Scales& scales, const Witnesses& witnesses,
                   const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer, const Shading& shading,

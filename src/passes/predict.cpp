@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 #include "passes/gbuffer.h"
 
 namespace lightband::passes {

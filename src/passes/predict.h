@@ -1,10 +1,12 @@
 // Section 3.1: fills the bandwidth buffer and builds its pyramids.
 #pragma once
 
-#include "frame/control.h"
-#include "frame/targets.h"
+#include "assets/scene.h"
 #include "passes/covered.h"
-#include "scene/scene.h"
+#include "picture/forecast.h"
+#include "picture/settings.h"
+#include "picture/targets.h"
+#include "picture/tiles.h"
 
 namespace lightband::passes {
 
@@ -26,7 +28,7 @@ double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Predicti
                       uint32_t coarsest_level);
 
 // Levels (eq. 11) and, where target holds them, relative variances with their min and max pyramids (shaders/levels.glsl,
-// pyramid.glsl). scales: of tiles of the picture (frame/tiles.h).
+// pyramid.glsl). scales: of tiles of the picture (picture/tiles.h).
 void pyramids(gl::Device& device, const Forecast& forecast, const Scales& scales, const Settings& settings,
               const Covered& covered, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target);
 

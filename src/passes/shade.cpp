@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 #include "passes/gbuffer.h"
 
 namespace lightband::passes {

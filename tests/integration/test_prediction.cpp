@@ -5,7 +5,7 @@
 #include "bandwidth/octahedral.h"
 #include "bandwidth/wavelet.h"
 // clang-format off
-#include "scene/light.h"  // before the wrapper
+#include "assets/light.h"  // before the wrapper
 #include "rendering.h"
 // clang-format on
 

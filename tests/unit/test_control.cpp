@@ -1,6 +1,6 @@
 // Error control: what rounds estimate of their error, and what is planned from it.
 #include "frame/control.h"
-#include "frame/decision.h"
+#include "picture/decision.h"
 #include "frame/estimate.h"
 #include "frame/redraw.h"
 #include "numeric_testing.h"

@@ -1,6 +1,6 @@
 // The sample budget and the table of settings.
-#include "frame/budget.h"
-#include "frame/settings.h"
+#include "picture/budget.h"
+#include "picture/settings.h"
 #include "numeric_testing.h"
 
 namespace lightband {

@@ -1,4 +1,4 @@
-#include "scene/material.h"
+#include "assets/material.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "frame/budget.h"
+#include "picture/budget.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "assets/light.h"
+#include "assets/material.h"
+#include "assets/mesh.h"
 #include "scene/camera.h"
-#include "scene/light.h"
-#include "scene/material.h"
-#include "scene/mesh.h"
 
 namespace lightband {
 

@@ -6,7 +6,7 @@
 
 #include "bandwidth/transport.h"
 #include "bandwidth/wavelet.h"
-#include "frame/budget.h"
+#include "picture/budget.h"
 #include "scene/brdf.h"
 
 #include "lightband/lightband.h"

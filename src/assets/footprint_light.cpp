@@ -1,13 +1,13 @@
-#include "passes/footprint_light.h"
+#include "assets/footprint_light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "bandwidth/octahedral.h"
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 
-namespace lightband::passes {
+namespace lightband {
 namespace {
 
 // Footprints below a texel are looked up in the map itself; 256 texels a side are some 0.8 degrees wide.
@@ -54,4 +54,4 @@ FootprintLight footprint_light(gl::Device& device, const gl::Texture& map, uint3
     return result;
 }
 
-}  // namespace lightband::passes
+}  // namespace lightband

@@ -1,12 +1,12 @@
-#include "passes/environment_bandwidth.h"
+#include "assets/environment_bandwidth.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "bandwidth/octahedral.h"
-#include "passes/dispatch.h"
+#include "gl/dispatch.h"
 
-namespace lightband::passes {
+namespace lightband {
 namespace {
 
 // The square's side: its mean texel is about as wide as the map's; bounded so that a frame's lookups stay in caches.
@@ -85,4 +85,4 @@ EnvironmentBandwidth environment_bandwidth(gl::Device& device, const gl::Texture
     return result;
 }
 
-}  // namespace lightband::passes
+}  // namespace lightband

@@ -1,9 +1,9 @@
-#include "scene/light.h"
+#include "assets/light.h"
 
 #include <algorithm>
 
-#include "passes/environment_bandwidth.h"
-#include "passes/footprint_light.h"
+#include "assets/environment_bandwidth.h"
+#include "assets/footprint_light.h"
 
 namespace lightband {
 
@@ -34,7 +34,7 @@ const std::vector<Lamp>& Light::lamps() const {
 const EnvironmentBandwidth& Light::bandwidth(BandRule rule) const {
     auto found = bandwidths_.find(rule);
     if (found == bandwidths_.end())
-        found = bandwidths_.emplace(rule, passes::environment_bandwidth(*device_, texture_, map_.height, rule)).first;
+        found = bandwidths_.emplace(rule, lightband::environment_bandwidth(*device_, texture_, map_.height, rule)).first;
     return found->second;
 }
 
@@ -59,7 +59,7 @@ const FootprintLight& Light::footprints(Lookup lookup, FootprintLight::Kind kind
     const auto key = std::pair(lookup, kind);
     auto found = footprints_.find(key);
     if (found == footprints_.end())
-        found = footprints_.emplace(key, passes::footprint_light(*device_, texture_, map_.height, sampler_.total(), lookup, kind)).first;
+        found = footprints_.emplace(key, lightband::footprint_light(*device_, texture_, map_.height, sampler_.total(), lookup, kind)).first;
     return found->second;
 }
 

@@ -1,4 +1,4 @@
-#include "frame/settings.h"
+#include "picture/settings.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "scene/scene.h"
+#include "assets/scene.h"
 
 #include <algorithm>
 #include <set>

@@ -1,4 +1,4 @@
-#include "scene/mesh.h"
+#include "assets/mesh.h"
 
 namespace lightband {
 

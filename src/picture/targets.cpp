@@ -1,9 +1,9 @@
-#include "frame/targets.h"
+#include "picture/targets.h"
 
 #include <algorithm>
 
 #include "base/text.h"
-#include "frame/decision.h"
+#include "picture/decision.h"
 
 namespace lightband {
 
