@@ -22,6 +22,7 @@ from tqdm import tqdm
 
 from lightband.pictures import DOTS_PER_INCH, STYLE
 from matrix import scene_list
+from matrix_figures import geometric_mean
 from matrix_oracle import oracle_fractions
 from matrix_plots import GUIDE, clean, log_axis, percent
 from matrix_scene import references
@@ -68,10 +69,6 @@ def measure(scenery: Scenery, names: tuple[str, str, str], size: int) -> list[di
         row["directions/oracle"] = row["directions shaded"] / oracle
         rows.append(row)
     return rows
-
-
-def geometric_mean(values: list[float]) -> float:
-    return float(np.exp(np.mean(np.log(values))))
 
 
 def summary(rows: list[dict]) -> str:

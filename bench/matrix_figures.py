@@ -119,5 +119,5 @@ def column(rows: list[dict], name: str, **where: float | str) -> np.ndarray:
     return np.array([value for value in chosen if value != ""], dtype=float)
 
 
-def geometric_mean(values: np.ndarray) -> float:
-    return float(np.exp(np.log(values).mean()))
+def geometric_mean(values: np.ndarray | list[float]) -> float:
+    return float(np.exp(np.mean(np.log(values))))

@@ -61,13 +61,3 @@ def windowed_bandwidth(a: np.ndarray, b: np.ndarray, covered: np.ndarray, window
             columns.append(left + window // 2)
             values.append(np.interp(percentile, energy, np.arange(len(energy)) + 0.5) / window)
     return np.array(rows), np.array(columns), np.minimum(values, 0.5)
-
-
-def rank_correlation(x: np.ndarray, y: np.ndarray) -> float:
-    """Spearman's: the correlation of ranks, ties sharing their mean rank."""
-    def ranks(v: np.ndarray) -> np.ndarray:
-        _, inverse, counts = np.unique(v, return_inverse=True, return_counts=True)
-        ends = np.cumsum(counts)
-        return ((ends - counts + ends - 1) / 2)[inverse]
-
-    return float(np.corrcoef(ranks(x), ranks(y))[0, 1])

@@ -17,7 +17,7 @@ import numpy as np
 from tqdm import tqdm
 
 from lightband import pictures
-from measure import luminance, rank_correlation, windowed_bandwidth
+from measure import luminance, windowed_bandwidth
 from scenes import Stage, machine
 from tables import write_table
 
@@ -36,7 +36,7 @@ def converged(stage: Stage, scene, size: int, samples: int, seed: int, sampler: 
 def agreement(predicted: np.ndarray, measured: np.ndarray) -> tuple[float, float]:
     """Rank correlation, and median of predicted over measured where something was measured."""
     seen = measured > 0
-    return rank_correlation(predicted, measured), float(np.median(predicted[seen] / measured[seen]))
+    return pictures.rank_correlation(predicted, measured), float(np.median(predicted[seen] / measured[seen]))
 
 
 def validate(stage: Stage, material: str, mesh: str, map_name: str, size: int, samples: int, out: Path) -> dict:

@@ -4,6 +4,7 @@
 #include "covered.glsl"
 #include "surface.glsl"
 #include "transport.glsl"
+#include "views.glsl"
 
 layout(binding = 2) uniform usampler2D materials;
 layout(binding = 3) uniform sampler2D moments;       // octahedral: means of L, L^2, L nu_a
@@ -81,8 +82,7 @@ void main() {
     vec3 wo = vec3(sqrt(max(0.0, 1.0 - cos_outgoing * cos_outgoing)), 0.0, cos_outgoing);
     float curvature = curvature_at(at, here, material);
 
-    int view = min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1);
-    int first = (int(texelFetch(brdf_of, int(material)).r) * LOBE_VIEWS + view) * pilot_count;
+    int first = (int(texelFetch(brdf_of, int(material)).r) * LOBE_VIEWS + view_of(cos_outgoing)) * pilot_count;
     float frequency_limit = nyquist / radians_per_pixel;  // cycles/radian at the eye
     vec2 weighted = vec2(0);
     float weights = 0.0, second = 0.0, printed = 0.0, from_lobe = 0.0, kept = 0.0;

@@ -39,7 +39,7 @@ layout(binding = 6) uniform usampler2D former_bins;  // of pixels that former ro
 layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;
 layout(binding = 3, r32ui) readonly uniform uimage2D sample_counts;  // of former rounds
 layout(binding = 0, std430) buffer Counts {
-    uint bent, saturated, unused[2];
+    uint bent, saturated;
     uint histogram[];  // (BRDF slot * 2 + whether a former round shaded it) * BINS + bin
 } counts;
 

@@ -2,6 +2,8 @@
 // trilinear lookup), LOBE_LAMBERT or LOBE_GGX. Local frame, wo at azimuth 0. The double-precision originals are
 // src/sampling/lobe_sampler.cpp and src/scene/brdf.cpp.
 
+#include "views.glsl"
+
 // The lobe towards one outgoing direction.
 struct Lobe {
     vec3 wo;
@@ -10,8 +12,6 @@ struct Lobe {
     float per_value, even;  // see target_density
 #endif
 };
-
-int lobe_view(float cos_outgoing) { return min(int(polar_angle(cos_outgoing) * (2.0 / pi) * LOBE_VIEWS), LOBE_VIEWS - 1); }
 
 layout(binding = 12) uniform samplerBuffer lobe_importances;  // src/sampling/lobe_sampler.h, LobeImportance
 
@@ -75,7 +75,7 @@ vec3 lobe_value(vec3 wi, vec3 h, float x, float oh) {
 }
 
 Lobe lobe_towards(vec3 wo) {
-    int view = lobe_view(wo.z);
+    int view = view_of(wo.z);
     float albedo = texelFetch(lobe_albedo, view).r, even = 1.0 / (2.0 * pi);
     return albedo > 0.0 ? Lobe(wo, view, (1.0 - LOBE_DEFENSIVE) / albedo, LOBE_DEFENSIVE * even) : Lobe(wo, view, 0.0, even);
 }
@@ -136,7 +136,7 @@ vec3 evaluate_lobe(Lobe lobe, vec3 wi, out vec2 density) {
 
 #else
 
-Lobe lobe_towards(vec3 wo) { return Lobe(wo, lobe_view(wo.z)); }
+Lobe lobe_towards(vec3 wo) { return Lobe(wo, view_of(wo.z)); }
 
 #if defined(LOBE_LAMBERT)
 

@@ -38,7 +38,7 @@ constexpr Field fields[] = {
      "uint8, height x width: log2 of the cells along a side of the square of mirror directions that the pixel asks for; 15 where it asks "
      "for finer ones than there are. 0 in a frame that did not interpolate over directions."},
     {"shaded", "uint8, height x width: 1 where the integral was computed; 0: interpolated, or nothing seen."},
-    {"sample_count", "uint32, height x width: light samples drawn."},
+    {"sample_count", "uint32, height x width: light samples drawn, by one of the frames that are accumulated."},
     {"error", "float32, height x width: error of the luminance L that is expected here, over L + 0.01 of the frame's mean L."},
     {"variance_predicted",
      "float32, height x width: radiance^2, predicted variance of one light sample's luminance, by the setting \"variance\" (eq. 9 where that is "

@@ -320,7 +320,7 @@ typedef struct lb_frame_stats {
     uint64_t bent_normals;       /* covered pixels whose shading normal faced away and was turned to the eye */
     uint64_t device_bytes;       /* device memory held by the scene and this frame */
     double milliseconds;         /* whole render call */
-    double bandwidth_milliseconds; /* of it: everything beside shading and geometry (bandwidth, pyramids, lists, estimate) */
+    double bandwidth_milliseconds; /* of it: everything beside shading and geometry (bandwidth, audits, lists, interpolation, estimate) */
     double shading_milliseconds;   /* of it: the shading integral */
     double error;                  /* relative error of the frame, as the frame itself estimates it (docs/conventions.md):
                                       root of the squares of the three parts: noise,
@@ -383,7 +383,7 @@ typedef struct lb_buffer_view {
  *   cell_level          uint8   [H][W]     log2 of the cells along a side of the square of mirror directions that the
  *                                          pixel asks for; 15: finer than there are
  *   shaded              uint8   [H][W]     1: the integral was computed here; 0: interpolated or nothing seen
- *   sample_count        uint32  [H][W]     light samples drawn here
+ *   sample_count        uint32  [H][W]     light samples drawn here, by one of the frames that are accumulated
  *   error               float32 [H][W]     error of the luminance L that is expected here, over L + 0.01 of the frame's mean L;
  *                                          its root mean square over the covered pixels is lb_frame_stats.error
  *   variance_predicted  float32 [H][W]     radiance^2: predicted variance of one light sample's luminance, by the setting
@@ -415,7 +415,7 @@ LB_API lb_result lb_environment_map(lb_environment environment, const char* name
 LB_API lb_result lb_brdf_map(lb_brdf brdf, const char* name, lb_buffer* buffer, lb_buffer_view* view);
 
 /* Writes a frame's fields. path ends in ".exr": float channels, one group per field, named "R", "G", "B", "A" for
- * color and "<field>.<component>" for others; names: comma-separated fields, NULL: color alone. path ends in ".png":
+ * color and "<field>.<component>" for others; names: comma-separated fields but pyramids, NULL: color alone. path ends in ".png":
  * color alone, sRGB, after multiplication by 2^exposure. Written to a temporary file beside path, then renamed. */
 LB_API lb_result lb_frame_save(lb_frame frame, const char* path, const char* names, float exposure);
 

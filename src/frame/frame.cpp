@@ -99,8 +99,7 @@ void Frame::finish(Job* job) const {
     stats.device_bytes = job->scene.device_bytes() + next.gbuffer.bytes() + job->covered.entries.bytes() +
                          (next.prediction ? next.prediction->bytes() : 0) + next.shading.bytes() + job->list.entries.bytes();
     stats.milliseconds = next.plan.total_milliseconds();
-    stats.bandwidth_milliseconds = next.plan.milliseconds_of(
-        {"environment", "bandwidth", "probe", "audit", "doubt", "foresee", "pyramids", "cells", "classify", "list", "estimate"});
+    stats.bandwidth_milliseconds = stats.milliseconds - next.plan.milliseconds_of({"gbuffer", "shade"});
     stats.shading_milliseconds = next.plan.milliseconds_of({"shade"});
     stats.error = next.estimate.error();
     stats.noise_error = next.estimate.noise_error();

@@ -9,7 +9,7 @@
 namespace lightband::passes {
 namespace {
 
-constexpr size_t header = 4;  // bent, saturated, two unused: before the histogram
+constexpr size_t header = 2;  // bent and saturated: before the histogram
 
 std::string definitions(const Settings& settings, const Prediction* prediction) {
     std::string result = text("BINS ", budget_bins, "\nSHARE_ONE ", share_one, "\nBINS_PER_OCTAVE ", bins_per_octave);

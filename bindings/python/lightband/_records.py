@@ -51,7 +51,7 @@ class FrameStats:
     milliseconds: float
     """The whole render call."""
     bandwidth_milliseconds: float
-    """Of it: everything beside shading and geometry (bandwidth, pyramids, lists, estimate)."""
+    """Of it: everything beside shading and geometry (bandwidth, audits, lists, interpolation, estimate)."""
     shading_milliseconds: float
     """Of it: the shading integral."""
     error: float
