@@ -1,4 +1,4 @@
-// Pixels that are shaded whatever is decided for others, drawn by chance: src/gl/dispatch.h, Witnesses. How many of 2^32 beside the
+// Pixels that are shaded whatever is decided for others, drawn by chance: src/passes/uniforms.h, Witnesses. How many of 2^32 beside the
 // first; 0: none.
 uniform uint witnesses, witness_seed, audited, audit_seed;
 

@@ -41,8 +41,8 @@ constexpr Field fields[] = {
     {"sample_count", "uint32, height x width: light samples drawn, by one of the frames that are accumulated."},
     {"error", "float32, height x width: error of the luminance L that is expected here, over L + 0.01 of the frame's mean L."},
     {"variance_predicted",
-     "float32, height x width: radiance^2, predicted variance of one light sample's luminance, by the setting \"variance\" (eq. 9 where that is "
-     "\"printed\")."},
+     "float32, height x width: radiance^2, predicted variance of one light sample's luminance, by the setting \"variance\" "
+     "(eq. 9 where that is \"printed\")."},
     {"variance_measured",
      "float32, height x width: radiance^2, the same from the samples drawn; 0 where fewer than two were drawn."},
     {"level_pyramid",

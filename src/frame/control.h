@@ -94,7 +94,7 @@ private:
 
     const Settings& settings_;
     const Forecast forecast_;
-    // The error that is asked for; 0: time governs, where no error is asked for, or none that shading every pixel is known to reach in time.
+    // The error that is asked for; 0: time governs, where none is, or none that shading every pixel is known to reach in time.
     double target_;
     Scales scales_;
     double witnesses_;

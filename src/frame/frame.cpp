@@ -185,7 +185,7 @@ void Frame::choose_levels(Job* job, const Control& control, const Forecast& fore
                          *next.prediction->pyramids);
         job->tiles = next.tiles();
         const char* made = next.prediction->pyramids->variances ? "least level and largest variance" : "least level";
-        next.plan.finished("pyramids", made + std::string(" of each block") + scaled, next.prediction->pyramids->bytes(), pixels(), "pixels");
+        next.plan.finished("pyramids", text(made, " of each block", scaled), next.prediction->pyramids->bytes(), pixels(), "pixels");
         return;
     }
     passes::mirror_cells(*device_, scales, witnesses, job->slot_of, job->covered, next.gbuffer, next.shading,
@@ -202,9 +202,11 @@ void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
     const passes::Witnesses witnesses{control->witnesses(), job->audited, settings.seed(), next.stats.rounds};
     const bool interpolates = prediction != nullptr && prediction->interpolates();
     if (interpolates) choose_levels(job, *control, forecast, witnesses);
-    job->counts = passes::classify(*device_, job->slot_of, next.slots, job->settings,
-                                   interpolates ? job->scene.light->lamps() : std::vector<Lamp>(), witnesses, forecast, control->tolerance(),
-                                   job->redraw.bins, width_, job->covered, next.gbuffer, prediction, next.shading);
+    const std::vector<Lamp> none;
+    const passes::Criteria criteria{job->settings, interpolates ? job->scene.light->lamps() : none, witnesses, control->tolerance(),
+                                    job->redraw.bins};
+    job->counts = passes::classify(*device_, job->slot_of, next.slots, criteria, forecast, width_, job->covered, next.gbuffer, prediction,
+                                   next.shading);
     next.plan.finished("classify", interpolates ? "shade or interpolate" : "every covered pixel is shaded",
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
 }

@@ -165,7 +165,8 @@ std::unique_ptr<EglContext> EglContext::create(uint32_t device) {
     throw Error(LB_ERROR_DEVICE,
                 text("no ", device == LB_DEVICE_HARDWARE ? "hardware " : device == LB_DEVICE_SOFTWARE ? "software " : "",
                      "OpenGL 4.5 device; tried:", attempts,
-                     device == LB_DEVICE_HARDWARE ? "\nSoftware rendering is chosen by LB_DEVICE_SOFTWARE or LB_DEVICE_ANY (in Python: device=\"software\" or \"any\")."
+                     device == LB_DEVICE_HARDWARE ? "\nSoftware rendering is chosen by LB_DEVICE_SOFTWARE or LB_DEVICE_ANY (in Python: "
+                                                    "device=\"software\" or \"any\")."
                                                   : ""));
 }
 

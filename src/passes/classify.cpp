@@ -44,21 +44,23 @@ Histogram Counts::fresh_bins() const {
     return sums;
 }
 
-Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                const std::vector<Lamp>& lamps, const Witnesses& witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
+Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Criteria& criteria, const Forecast& forecast,
                 uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
+    const Settings& settings = criteria.settings;
+    const std::vector<uint8_t>& former_bins = criteria.former_bins;
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
     const bool further = !former_bins.empty();
-    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + lamp_definitions(lamps) + (further ? "\nFURTHER_ROUND" : ""));
+    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + lamp_definitions(criteria.lamps) +
+                                                                (further ? "\nFURTHER_ROUND" : ""));
     gl::Texture former;
     if (further) {
         former = gl::Texture::image(gl, GL_R8UI, width, uint32_t(former_bins.size() / width));
         former.upload(width, uint32_t(former_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, former_bins.data());
     }
-    witnesses.set(program);
-    set_lamps(program, lamps);
+    criteria.witnesses.set(program);
+    set_lamps(program, criteria.lamps);
     program.use();
     bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 2, gbuffer.material);
@@ -67,7 +69,7 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
         bind_texture(gl, 4, prediction->bandwidth);
         bind_texture(gl, 5, prediction->prediction);
         program.set("mean_radiance", float(forecast.mean_radiance));
-        program.set("tolerance", float(tolerance));
+        program.set("tolerance", float(criteria.tolerance));
     }
     if (prediction != nullptr && prediction->pyramids) {
         const Pyramids& pyramids = *prediction->pyramids;

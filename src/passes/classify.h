@@ -18,11 +18,19 @@ struct Counts {
     Histogram fresh_bins() const;  // of what no former round shaded
 };
 
-// Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike. witnesses: of those that might
-// be interpolated, which are shaded all the same. tolerance: shaders/pilots_say.glsl. former_bins: of
-// the pixels that former rounds shaded; empty in the first.
-Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Settings& settings,
-                const std::vector<Lamp>& lamps, const Witnesses& witnesses, const Forecast& forecast, double tolerance, const std::vector<uint8_t>& former_bins,
+// By what pixels are decided, beside what was predicted. lamps: across whose horizons nothing is interpolated. witnesses: of those that
+// might be interpolated, which are shaded all the same. tolerance: shaders/pilots_say.glsl. former_bins: of the pixels that former rounds
+// shaded; empty in the first.
+struct Criteria {
+    const Settings& settings;
+    const std::vector<Lamp>& lamps;
+    Witnesses witnesses;
+    double tolerance;
+    const std::vector<uint8_t>& former_bins;
+};
+
+// Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike.
+Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Criteria& criteria, const Forecast& forecast,
                 uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target);
 
 // The pixels to shade: slot by slot, those of former rounds apart, by falling sample count.

@@ -14,8 +14,8 @@ constexpr double most_units = 1u << 30;  // of all squared errors, each of toler
 }  // namespace
 
 std::vector<ForeseenTile> foresee(gl::Device& device, size_t slots, const std::vector<Lamp>& lamps, const Forecast& forecast,
-                                  double tolerance, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer, const Prediction& prediction,
-                                  uint32_t stride) {
+                                  double tolerance, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer,
+                                  const Prediction& prediction, uint32_t stride) {
     const gl::Functions& gl = device.gl();
     const MirrorCells& mirrors = *prediction.mirrors;
     struct Sums {

@@ -83,7 +83,8 @@ const lb_setting_info table[place_count] = {
     choice_of("environment_lookup", "linear|nearest", "linear", "Lookup in the environment's map."),
     choice_of("background", "none|environment", "none", "What pixels that see no mesh show."),
     integer("seed", 0, 4294967295.0, 0, "Frames with different seeds are independent; equal seeds give equal frames."),
-    integer("accumulate", 1, 1 << 20, 1, "Frames rendered with successive seeds and averaged in double precision. 1 where an error or a time is asked for."),
+    integer("accumulate", 1, 1 << 20, 1,
+            "Frames rendered with successive seeds and averaged in double precision. 1 where an error or a time is asked for."),
 };
 
 int find(const std::string& name) {
