@@ -157,76 +157,83 @@ HostArray Frame::field(const std::string& name) const {
     const Result& r = result();
     if (known->predicted && !r.prediction)
         throw Error(LB_ERROR_INVALID_STATE, text("field ", name, ": a frame of method reference predicts nothing"));
+    std::vector<uint8_t> material = read_bytes(r.gbuffer.material, pixels());
+    if (name == "material") return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "instance + 1", std::move(material));
+    if (known->predicted) return predicted(name, material);
+    if (name == "depth" || name == "position" || name == "normal") return seen(name, material);
+    return shaded(name, material);
+}
 
-    const size_t pixels = size_t(width_) * height_;
-    const std::vector<uint64_t> flat = {height_, width_};
-    const auto picture = [&](size_t components) { return std::vector<uint64_t>{height_, width_, components}; };
-    const auto scalar = [&](std::vector<float> values, const char* unit) {
-        return HostArray::of(LB_TYPE_FLOAT32, flat, unit, std::move(values));
-    };
-    const auto bandwidth = [&](GLenum component) { return read_floats(r.prediction->bandwidth, component, pixels, 1); };
-    std::vector<uint8_t> material = read_bytes(r.gbuffer.material, pixels);
+HostArray Frame::scalar(std::vector<float> values, const char* unit) const {
+    return HostArray::of(LB_TYPE_FLOAT32, {height_, width_}, unit, std::move(values));
+}
 
-    if (name == "material") return HostArray::of(LB_TYPE_UINT8, flat, "instance + 1", std::move(material));
-    if (name == "color") {
-        std::vector<float> rgba = read_floats(r.shading.radiance, GL_RGBA, pixels, 4);
-        for (size_t i = 0; i < pixels; ++i) {
-            if (!r.accumulated.empty() && material[i] != 0) std::copy_n(&r.accumulated[4 * i], 3, &rgba[4 * i]);
-            rgba[4 * i + 3] = material[i] != 0 ? 1.0f : 0.0f;
-        }
-        return HostArray::of(LB_TYPE_FLOAT32, picture(4), "radiance", std::move(rgba));
-    }
-    if (name == "depth") {
-        std::vector<float> depth = alpha_of(read_floats(r.gbuffer.surface, GL_RGBA, pixels, 4));
-        for (size_t i = 0; i < pixels; ++i) depth[i] = material[i] != 0 ? std::abs(depth[i]) : std::numeric_limits<float>::infinity();
-        return scalar(std::move(depth), "metre");
-    }
-    if (name == "position") {
-        const std::vector<float> depth = alpha_of(read_floats(r.gbuffer.surface, GL_RGBA, pixels, 4));
-        std::vector<float> position(3 * pixels);
-        for (size_t i = 0; i < pixels; ++i) {
-            if (material[i] == 0) continue;
-            const Vec3 at = r.eye + double(std::abs(depth[i])) * r.gbuffer.rays.through(double(i % width_), double(i / width_));
-            for (size_t k = 0; k < 3; ++k) position[3 * i + k] = float(at[glm::length_t(k)]);
-        }
-        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "metre", std::move(position));
-    }
+// What the geometry pass saw.
+HostArray Frame::seen(const std::string& name, const std::vector<uint8_t>& material) const {
+    const Result& r = result();
     if (name == "normal")
-        return HostArray::of(LB_TYPE_FLOAT32, picture(3), "", read_floats(r.gbuffer.surface, GL_RGB, pixels, 3));
+        return HostArray::of(LB_TYPE_FLOAT32, {height_, width_, 3}, "", read_floats(r.gbuffer.surface, GL_RGB, pixels(), 3));
+    std::vector<float> depth = alpha_of(read_floats(r.gbuffer.surface, GL_RGBA, pixels(), 4));
+    for (size_t i = 0; i < pixels(); ++i) depth[i] = material[i] != 0 ? std::abs(depth[i]) : std::numeric_limits<float>::infinity();
+    if (name == "depth") return scalar(std::move(depth), "metre");
+    std::vector<float> position(3 * pixels());
+    for (size_t i = 0; i < pixels(); ++i) {
+        if (material[i] == 0) continue;
+        const Vec3 at = r.eye + double(depth[i]) * r.gbuffer.rays.through(double(i % width_), double(i / width_));
+        for (size_t k = 0; k < 3; ++k) position[3 * i + k] = float(at[glm::length_t(k)]);
+    }
+    return HostArray::of(LB_TYPE_FLOAT32, {height_, width_, 3}, "metre", std::move(position));
+}
+
+HostArray Frame::predicted(const std::string& name, const std::vector<uint8_t>& material) const {
+    const Prediction& prediction = *result().prediction;
+    const auto bandwidth = [&](GLenum component) { return read_floats(prediction.bandwidth, component, pixels(), 1); };
     if (name == "bandwidth_spatial") return scalar(bandwidth(GL_RED), "1/metre");
     if (name == "bandwidth_angular") return scalar(bandwidth(GL_GREEN), "1/radian");
     if (name == "bandwidth_image") return scalar(bandwidth(GL_BLUE), "1/pixel");
-    if (name == "curvature") return scalar(alpha_of(read_floats(r.prediction->bandwidth, GL_RGBA, pixels, 4)), "1/metre");
+    if (name == "curvature") return scalar(alpha_of(read_floats(prediction.bandwidth, GL_RGBA, pixels(), 4)), "1/metre");
+    if (name == "variance_predicted") return scalar(read_floats(prediction.prediction, GL_RED, pixels(), 1), "radiance^2");
     if (name == "bandwidth_reflected") {
-        std::vector<float> reflected(pixels);
-        if (r.prediction->mirrors) reflected = read_floats(r.prediction->reflected, GL_RED, pixels, 1);
-        for (size_t i = 0; i < pixels; ++i)
+        std::vector<float> reflected(pixels());
+        if (prediction.mirrors) reflected = read_floats(prediction.reflected, GL_RED, pixels(), 1);
+        for (size_t i = 0; i < pixels(); ++i)
             if (material[i] == 0) reflected[i] = 0;
         return scalar(std::move(reflected), "1/radian");
     }
     if (name == "cell_level") {
-        std::vector<uint8_t> levels(pixels);
-        if (r.prediction->mirrors) {
-            const std::vector<uint32_t> words = read_words(r.prediction->mirrors->cells, pixels);
-            for (size_t i = 0; i < pixels; ++i) levels[i] = material[i] != 0 ? uint8_t(MirrorCells::level_of(words[i])) : 0;
+        std::vector<uint8_t> levels(pixels());
+        if (prediction.mirrors) {
+            const std::vector<uint32_t> words = read_words(prediction.mirrors->cells, pixels());
+            for (size_t i = 0; i < pixels(); ++i) levels[i] = material[i] != 0 ? uint8_t(MirrorCells::level_of(words[i])) : 0;
         }
-        return HostArray::of(LB_TYPE_UINT8, flat, "log2(cell)", std::move(levels));
+        return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "log2(cell)", std::move(levels));
     }
-    if (name == "level" || name == "level_pyramid" || name == "variance_pyramid") return pyramid(name, material);
+    return pyramid(name, material);
+}
+
+// What the rounds drew and showed.
+HostArray Frame::shaded(const std::string& name, const std::vector<uint8_t>& material) const {
+    const Result& r = result();
+    if (name == "color") {
+        std::vector<float> rgba = read_floats(r.shading.radiance, GL_RGBA, pixels(), 4);
+        for (size_t i = 0; i < pixels(); ++i) {
+            if (!r.accumulated.empty() && material[i] != 0) std::copy_n(&r.accumulated[4 * i], 3, &rgba[4 * i]);
+            rgba[4 * i + 3] = material[i] != 0 ? 1.0f : 0.0f;
+        }
+        return HostArray::of(LB_TYPE_FLOAT32, {height_, width_, 4}, "radiance", std::move(rgba));
+    }
     if (name == "shaded") {
-        std::vector<uint8_t> decisions = read_bytes(r.shading.decision, pixels);
+        std::vector<uint8_t> decisions = read_bytes(r.shading.decision, pixels());
         for (uint8_t& decision : decisions) decision = is_shaded(decision);
-        return HostArray::of(LB_TYPE_UINT8, flat, "", std::move(decisions));
+        return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "", std::move(decisions));
     }
-    if (name == "variance_predicted")
-        return scalar(read_floats(r.prediction->prediction, GL_RED, pixels, 1), "radiance^2");
     if (name == "error") return scalar(pixel_errors(r.read_round(), r.estimate, r.slot_of, interpolation_shape()), "");
-    std::vector<uint32_t> counts = read_words(r.shading.sample_count, pixels);
-    if (name == "sample_count") return HostArray::of(LB_TYPE_UINT32, flat, "sample", std::move(counts));
+    std::vector<uint32_t> counts = read_words(r.shading.sample_count, pixels());
+    if (name == "sample_count") return HostArray::of(LB_TYPE_UINT32, {height_, width_}, "sample", std::move(counts));
     // variance_measured: the samples' own, unbiased; rounding may leave a constant integrand slightly below zero.
-    const std::vector<float> radiance = r.accumulated.empty() ? read_floats(r.shading.radiance, GL_RGBA, pixels, 4) : r.accumulated;
-    std::vector<float> variance(pixels);
-    for (size_t i = 0; i < pixels; ++i) {
+    const std::vector<float> radiance = r.accumulated.empty() ? read_floats(r.shading.radiance, GL_RGBA, pixels(), 4) : r.accumulated;
+    std::vector<float> variance(pixels());
+    for (size_t i = 0; i < pixels(); ++i) {
         if (counts[i] < 2) continue;
         const double mean = luminance_of(&radiance[4 * i]), n = counts[i];
         variance[i] = float(std::max(0.0, (double(radiance[4 * i + 3]) - mean * mean) * n / (n - 1)));

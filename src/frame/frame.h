@@ -72,7 +72,12 @@ private:
     void accumulate(Job* job) const;
     void finish(Job* job) const;
     std::vector<float> interpolation_shape() const;
+    // Fields by name; material: of each pixel, instance + 1 or 0.
+    HostArray scalar(std::vector<float> values, const char* unit) const;
+    HostArray seen(const std::string& name, const std::vector<uint8_t>& material) const;
+    HostArray predicted(const std::string& name, const std::vector<uint8_t>& material) const;
     HostArray pyramid(const std::string& name, const std::vector<uint8_t>& material) const;
+    HostArray shaded(const std::string& name, const std::vector<uint8_t>& material) const;
     uint64_t pixels() const { return uint64_t(width_) * height_; }
 
     gl::DevicePtr device_;
