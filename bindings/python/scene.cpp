@@ -122,7 +122,7 @@ The array frame.material holds the number plus one. At most 254 instances.)");
 eye, target: points in metres; the target is in the middle of the picture.
 up: a direction, not along the view; None: +Y.
 fov_y: vertical field of view, radians, above 0 and below pi - 0.001; None: 0.7.
-near_plane, far_plane: metres; None: 1e-3 and 1e3 times the distance from eye to target.)");
+near_plane, far_plane: metres, 1e-30 to 1e30; None: 1e-3 and 1e3 times the distance from eye to target.)");
     scene.def_property(
         "environment", [](const Scene& self) { return self.environment; }, &set_environment,
         "The distant light; None before it was set.");

@@ -231,8 +231,8 @@ typedef struct lb_camera_desc {
     float target[3]; /* a point in the middle of the picture; not the eye */
     float up[3];     /* not along the view direction; zero: +Y */
     float fov_y;     /* vertical field of view, radians, above 0 and below pi - 0.001; zero: 0.7 */
-    float near_plane; /* metres, > 0; zero: 1e-3 of the distance from eye to target */
-    float far_plane;  /* metres, > near; zero: 1e3 times that distance */
+    float near_plane; /* metres, at least 1e-30; zero: 1e-3 of the distance from eye to target */
+    float far_plane;  /* metres, > near, at most 1e30; zero: 1e3 times that distance */
 } lb_camera_desc;
 
 #define LB_CAMERA_DESC_INIT { sizeof(lb_camera_desc), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0 }

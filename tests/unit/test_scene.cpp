@@ -321,6 +321,8 @@ void singular_cameras_are_named(void**) {
     refused({"fov_y", "3.2"}, [](lb_camera_desc& d) { d.fov_y = 3.2f; });
     refused({"near_plane"}, [](lb_camera_desc& d) { d.near_plane = -0.5f; });
     refused({"near_plane 5", "far_plane 2"}, [](lb_camera_desc& d) { d.near_plane = 5, d.far_plane = 2; });
+    refused({"near_plane is 9.99", "at least 1e-30"}, [](lb_camera_desc& d) { d.near_plane = 1e-38f; });
+    refused({"far_plane is ", "at most 1e+30"}, [](lb_camera_desc& d) { d.far_plane = 1e38f; });
 }
 
 }  // namespace
