@@ -120,6 +120,23 @@ def test_an_error_cannot_be_asked_of_accumulated_frames(context, scene):
         frame.render(scene)
 
 
+def test_witnesses_are_others_in_every_round(context):
+    """On levels that stay as they are, all that a round shades anew are its witnesses: some sixteenth of what is interpolated."""
+    scene = context.scene()
+    scene.environment = context.environment(light(directions()))
+    scene.add(context.builtin_mesh("blob", 128), context.builtin_brdf("interference-paint"))
+    scene.camera(eye=(0.3, 0.4, 1.9), target=(0, 0, 0), fov_y=0.6)
+    # Both tolerate as much contrast (3 %), so that their first rounds are alike.
+    frames = [context.frame(160, 128, target_error=asked, bandwidth_scale=0.2, interpolation="image") for asked in (0.025, 0.01)]
+    for frame in frames:
+        frame.render(scene)
+    few, many = (frame.stats for frame in frames)
+    assert few.rounds < many.rounds == 8
+    drawn = (many.shaded_pixels - few.shaded_pixels) / (many.rounds - few.rounds)
+    left = many.covered_pixels - np.array([few.shaded_pixels, many.shaded_pixels])
+    assert 0.8 * left.min() / 16 < drawn < 1.2 * left.max() / 16
+
+
 @pytest.mark.parametrize("size", [1, 2, 4, 8])
 def test_tiny_frames_know_their_bias(context, size):
     """Under constant light every sample of a cut errs alike, and no spread tells of it: all of so few pixels are audited. An audit shows
