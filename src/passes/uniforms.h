@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "gl/objects.h"
 #include "sampling/lamps.h"
+#include "sampling/sequence.h"
 
 namespace lightband::passes {
 
@@ -28,7 +29,6 @@ struct Witnesses {
 
     void set(const gl::Program& program) const {
         const auto of_all = [](double some) { return uint32_t(std::max(some * 0x1p32 - 1, 0.0)); };
-        constexpr uint32_t golden_ratio = 2654435769u;  // its fraction in 32 bits
         program.set("witnesses", of_all(std::max(part, audited)));
         program.set("witness_seed", seed + golden_ratio * (round - 1));
         program.set("audited", of_all(audited));

@@ -19,8 +19,8 @@ public:
             for (uint32_t x = 0; x < map.width; ++x) {
                 const float* rgb = map.texel(x, y);
                 // Radiance times solid angle, up to a factor.
-                at(x, y) = luminance(Vec3(rgb[0], rgb[1], rgb[2])) * std::cos(latitudes_[y]);
-                all_ += at(x, y);
+                at(x, y) = float(luminance(Vec3(rgb[0], rgb[1], rgb[2])) * std::cos(latitudes_[y]));
+                all_ += double(at(x, y));
             }
         }
     }
@@ -41,7 +41,7 @@ public:
             for (uint32_t x = 0; x < map_.width; ++x) {
                 const Vec3 apart = direction(x, y) - axis;
                 if (glm::dot(axis, direction(x, y)) < inside) continue;
-                const double flux = std::exchange(at(x, y), 0.0);
+                const double flux = double(std::exchange(at(x, y), 0.0f));
                 taken += flux;
                 squares += flux * glm::dot(apart, apart);
             }
@@ -50,13 +50,14 @@ public:
     }
 
 private:
-    double& at(uint32_t x, uint32_t y) { return flux_[size_t(y) * map_.width + x]; }
+    float& at(uint32_t x, uint32_t y) { return flux_[size_t(y) * map_.width + x]; }
     Vec3 direction(uint32_t x, uint32_t y) const {
         return std::cos(latitudes_[y]) * azimuths_[x] + Vec3(0, std::sin(latitudes_[y]), 0);
     }
 
     const RgbImage& map_;
-    std::vector<double> flux_, latitudes_;
+    std::vector<float> flux_;  // a map may have 2^27 texels
+    std::vector<double> latitudes_;
     std::vector<Vec3> azimuths_;
     double all_ = 0;
 };

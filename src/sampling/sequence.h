@@ -10,6 +10,8 @@
 
 namespace lightband {
 
+constexpr uint32_t golden_ratio = 2654435769u;  // its fraction in 32 bits
+
 // Bits of the two coordinates, most significant first: coordinate = bits * 2^-32.
 struct SequencePoint {
     uint32_t x, y;
@@ -33,7 +35,6 @@ inline Vec2 to_unit(const SequencePoint& point) { return {point.x * 0x1p-32, poi
 
 // Point i of n: shaders/shade.glsl's, under the shift that centres it.
 inline Vec2 centred_lattice_point(uint32_t i, uint32_t n) {
-    constexpr uint32_t golden_ratio = 2654435769u;  // its fraction in 32 bits
     return Vec2((i + 0.5) / n, (i * golden_ratio ^ 1u << 31) * 0x1p-32);
 }
 
