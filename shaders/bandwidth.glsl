@@ -123,7 +123,7 @@ void main() {
     if (curvature < 0.0) image_bandwidth = nyquist;
     float mean = weights / pilot_count;
 #if defined(VARIANCE_PRINTED)
-    // Eq. 9 bounds a mirror's variance so loosely that under the brightest texels (1e15) the bound is beyond float's range.
+    // Eq. 9 bounds a mirror's variance so loosely that under the brightest texels the bound is beyond float's range.
     float variance = min(4.0 * pi * pi * printed / pilot_count, largest_float);
 #else
     // What is left to the map's sampler varies less: its clusters or its cut know where it comes from.

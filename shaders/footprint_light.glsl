@@ -8,7 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, LIGHT_FORMAT) writeonly uniform image2DArray footprints;
 uniform int side;
 uniform int supersampling;  // lookups along each side of a texel: no source texel is skipped
-uniform float inverse_unit;
+uniform float inverse_mean;
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -20,7 +20,7 @@ void main() {
             vec2 square = (vec2(at) + (vec2(i, j) + 0.5) / supersampling) / side;
             vec4 light = light_from(octahedral_direction(square));
             for (int layer = 0; layer < LIGHT_LAYERS; ++layer)
-                sums[layer] += light.rgb * inverse_unit * part_below(layer, light.a);
+                sums[layer] += light.rgb * inverse_mean * part_below(layer, light.a);
         }
     float reach = octahedral_reach(octahedral_direction((vec2(at) + 0.5) / side));
     float solid_angle = reach * reach * reach / 5.196152;

@@ -1,6 +1,6 @@
 // Light from a direction: all of it, or what the lobe's samples look up where the rest is summed over a cut (shaders/cut.glsl).
 
-layout(binding = 0) uniform sampler2D map;  // RGB: radiance; alpha: the density with which the map's sampler draws it, 1/steradian
+layout(binding = 0) uniform sampler2D map;  // RGB: radiance, in Light::unit(); alpha: the density with which the map's sampler draws it, 1/steradian
 
 vec4 light_from(vec3 direction) {
     vec2 uv = latitude_longitude(direction);
@@ -30,7 +30,7 @@ float part_below(int layer, float map_density) { return 1.0; }
 #if defined(FILTERED)
 
 layout(binding = 13) uniform sampler2DArray footprint_light;  // shaders/footprint_light.glsl
-uniform float light_unit;
+uniform float mean_light;
 
 #if defined(BELOW_CEILINGS)
 
@@ -72,7 +72,7 @@ vec3 light_of_footprint(vec3 direction, vec2 density, float footprints) {
     int layer = light_layer(density);
     float texels = texels_covered(octahedral_reach(direction), density.y / footprints) / density.x;
     vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels));
-    return mean.rgb * (light_unit / mean.a);
+    return mean.rgb * (mean_light / mean.a);
 }
 
 // The same, where that may be: the map's own light instead.

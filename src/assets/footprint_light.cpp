@@ -1,8 +1,6 @@
 #include "assets/footprint_light.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bandwidth/octahedral.h"
 #include "gl/dispatch.h"
@@ -13,29 +11,36 @@ namespace {
 // Footprints below a texel are looked up in the map itself; 256 texels a side are some 0.8 degrees wide.
 constexpr uint32_t smallest_side = 16, largest_side = 256;
 
+// Of the map's mean: half floats keep all their digits down to 2^-14, and weights of solid angle are a fifth at least.
+constexpr double least_for_halves = 0x1p-11;
+
+// Half floats hold what is cut, some 3 2^13 times the mean at most, where no surface may face light that is too dim for them. Of the
+// whole, a texel may be brighter.
+bool fits_halves(const Light& light, FootprintLight::Kind kind) {
+    return kind == FootprintLight::Kind::below_ceilings && light.sampler().dimmest_octant() >= least_for_halves;
+}
+
 }  // namespace
 
-FootprintLight footprint_light(gl::Device& device, const gl::Texture& map, uint32_t map_height, double total, Lookup lookup,
-                               FootprintLight::Kind kind) {
+FootprintLight footprint_light(const Light& light, Lookup lookup, FootprintLight::Kind kind) {
+    gl::Device& device = *light.device();
     const gl::Functions& gl = device.gl();
     FootprintLight result;
-    const uint32_t side = octahedral_side(map_height, smallest_side, largest_side);
+    const uint32_t map_height = light.map().height, side = octahedral_side(map_height, smallest_side, largest_side);
     const uint32_t levels = uint32_t(std::log2(side)) + 1;
-    // Half floats hold what is cut, some 3 2^13 times the mean at most; of the whole, a texel may be brighter.
-    const bool whole = kind == FootprintLight::Kind::whole;
-    const GLenum format = whole ? GL_RGBA32F : GL_RGBA16F;
-    result.texture = gl::Texture::image_array(gl, format, side, side, whole ? 1 : Ceilings::count, levels);
-    result.unit = total / (4 * pi);
+    const bool halves = fits_halves(light, kind);
+    const GLenum format = halves ? GL_RGBA16F : GL_RGBA32F;
+    const uint32_t layers = kind == FootprintLight::Kind::below_ceilings ? Ceilings::count : 1;
+    result.texture = gl::Texture::image_array(gl, format, side, side, layers, levels);
 
-    const std::string definitions = FootprintLight::definitions(kind);
+    const std::string definitions = FootprintLight::definitions(kind) + (halves ? "\nLIGHT_FORMAT rgba16f" : "\nLIGHT_FORMAT rgba32f");
     const gl::Program& resample =
         device.compute("footprint_light", definitions + (lookup == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : ""));
     resample.set("side", int32_t(side));
     resample.set("supersampling", octahedral_supersampling(map_height, side));
-    // A map so dark that this leaves the range of float is black: the largest float times 0.
-    resample.set("inverse_unit", float(std::min(1 / result.unit, double(std::numeric_limits<float>::max()))));
+    resample.set("inverse_mean", float(1 / light.mean()));
     resample.use();
-    bind_texture(gl, 0, map);
+    bind_texture(gl, 0, light.texture());
     bind_images(gl, 0, result.texture, format);
     dispatch_pixels(gl, side, side);
 

@@ -5,8 +5,6 @@
 
 namespace lightband {
 
-// map: as Light::texture() holds it; total: the integral of its radiance over the sphere.
-FootprintLight footprint_light(gl::Device& device, const gl::Texture& map, uint32_t map_height, double total, Lookup lookup,
-                               FootprintLight::Kind kind);
+FootprintLight footprint_light(const Light& light, Lookup lookup, FootprintLight::Kind kind);
 
 }  // namespace lightband

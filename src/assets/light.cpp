@@ -7,7 +7,8 @@
 
 namespace lightband {
 
-Light::Light(gl::DevicePtr device, RgbImage map) : device_(std::move(device)), map_(std::move(map)), sampler_(map_) {
+Light::Light(gl::DevicePtr device, RgbImage map)
+    : device_(std::move(device)), map_(std::move(map)), sampler_(map_), unit_(sampler_.unit()) {
     const uint32_t limit = uint32_t(device_->max_texture_size());
     if (map_.width > limit || map_.height > limit)
         throw Error(LB_ERROR_LIMIT, text("a map of ", map_.width, " x ", map_.height, " exceeds the device's textures of ", limit));
@@ -16,7 +17,7 @@ Light::Light(gl::DevicePtr device, RgbImage map) : device_(std::move(device)), m
     for (uint32_t y = 0; y < map_.height; ++y)
         for (uint32_t x = 0; x < map_.width; ++x) {
             float* texel = &texels[(size_t(y) * map_.width + x) * 4];
-            std::copy_n(map_.texel(x, y), 3, texel);
+            for (int c = 0; c < 3; ++c) texel[c] = float(map_.texel(x, y)[c] / unit_);
             texel[3] = float(sampler_.texel_pdf(x, y));
         }
     texture_.upload(map_.width, map_.height, GL_RGBA, GL_FLOAT, texels.data());
@@ -51,15 +52,15 @@ const MapPoints& Light::points(Lookup lookup, uint32_t seed) const {
 }
 
 std::string FootprintLight::definitions(Kind kind) {
-    if (kind == Kind::whole) return "LIGHT_LAYERS 1\nLIGHT_FORMAT rgba32f";
-    return text("BELOW_CEILINGS\nLIGHT_LAYERS ", Ceilings::count, "\nFIRST_CEILING ", Ceilings::first, "\nLIGHT_FORMAT rgba16f");
+    if (kind == Kind::whole) return "LIGHT_LAYERS 1";
+    return text("BELOW_CEILINGS\nLIGHT_LAYERS ", Ceilings::count, "\nFIRST_CEILING ", Ceilings::first);
 }
 
 const FootprintLight& Light::footprints(Lookup lookup, FootprintLight::Kind kind) const {
     const auto key = std::pair(lookup, kind);
     auto found = footprints_.find(key);
     if (found == footprints_.end())
-        found = footprints_.emplace(key, lightband::footprint_light(*device_, texture_, map_.height, sampler_.total(), lookup, kind)).first;
+        found = footprints_.emplace(key, footprint_light(*this, lookup, kind)).first;
     return found->second;
 }
 

@@ -31,8 +31,7 @@ struct MapPoints {
 // (sampling/light_tree.h). Filled by passes/footprint_light.
 struct FootprintLight {
     enum class Kind { whole, below_ceilings };
-    double unit = 0;      // radiance of a value of 1: the map's mean
-    gl::Texture texture;  // array of a layer for each ceiling, mip-mapped; RGB and alpha weighted by solid angle
+    gl::Texture texture;  // array of a layer for each ceiling, mip-mapped; RGB over the map's mean, and alpha, weighted by solid angle
     static std::string definitions(Kind kind);
 };
 
@@ -52,6 +51,10 @@ public:
     const RgbImage& map() const { return map_; }
     const gl::Texture& texture() const { return texture_; }
     const MapSampler& sampler() const { return sampler_; }
+    // The radiance of a value of 1 in whatever shaders read and write: MapSampler::unit().
+    double unit() const { return unit_; }
+    // Over the sphere, in units.
+    double mean() const { return sampler_.total() / (4 * pi) / unit_; }
     const std::vector<Lamp>& lamps() const;
     const EnvironmentBandwidth& bandwidth(BandRule rule) const;
     // Drawn anew when lookup or seed change.
@@ -64,7 +67,8 @@ private:
     gl::DevicePtr device_;
     const RgbImage map_;
     const MapSampler sampler_;
-    gl::Texture texture_;  // RGB radiance; alpha: the sampler's density, per steradian
+    const double unit_;
+    gl::Texture texture_;  // RGB radiance in units; alpha: the sampler's density, per steradian
     mutable std::optional<std::vector<Lamp>> lamps_;
     mutable std::map<BandRule, EnvironmentBandwidth> bandwidths_;
     mutable MapPoints points_;

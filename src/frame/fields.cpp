@@ -34,6 +34,13 @@ std::vector<float> alpha_of(const std::vector<float>& rgba) {
     return alpha;
 }
 
+// From what shaders count radiance in, or its square, to the map's own units. Eq. 9 as printed bounds a mirror's variance so loosely that
+// under the brightest maps the bound is beyond a float's range: then it is the largest float.
+std::vector<float> scaled(std::vector<float> values, double unit) {
+    for (float& value : values) value = float(std::min(value * unit, double(std::numeric_limits<float>::max())));
+    return values;
+}
+
 double luminance_of(const float* rgb) { return luminance(Vec3(rgb[0], rgb[1], rgb[2])); }
 
 }  // namespace
@@ -192,7 +199,8 @@ HostArray Frame::predicted(const std::string& name, const std::vector<uint8_t>& 
     if (name == "bandwidth_angular") return scalar(bandwidth(GL_GREEN), "1/radian");
     if (name == "bandwidth_image") return scalar(bandwidth(GL_BLUE), "1/pixel");
     if (name == "curvature") return scalar(alpha_of(read_floats(prediction.bandwidth, GL_RGBA, pixels(), 4)), "1/metre");
-    if (name == "variance_predicted") return scalar(read_floats(prediction.prediction, GL_RED, pixels(), 1), "radiance^2");
+    if (name == "variance_predicted")
+        return scalar(scaled(read_floats(prediction.prediction, GL_RED, pixels(), 1), result().squared_unit()), "radiance^2");
     if (name == "bandwidth_reflected") {
         std::vector<float> reflected(pixels());
         if (prediction.mirrors) reflected = read_floats(prediction.reflected, GL_RED, pixels(), 1);
@@ -218,8 +226,9 @@ HostArray Frame::shaded(const std::string& name, const std::vector<uint8_t>& mat
         std::vector<float> rgba = read_floats(r.shading.radiance, GL_RGBA, pixels(), 4);
         for (size_t i = 0; i < pixels(); ++i) {
             if (!r.accumulated.empty() && material[i] != 0) std::copy_n(&r.accumulated[4 * i], 3, &rgba[4 * i]);
-            rgba[4 * i + 3] = material[i] != 0 ? 1.0f : 0.0f;
         }
+        rgba = scaled(std::move(rgba), r.radiance_unit);
+        for (size_t i = 0; i < pixels(); ++i) rgba[4 * i + 3] = material[i] != 0 ? 1.0f : 0.0f;
         return HostArray::of(LB_TYPE_FLOAT32, {height_, width_, 4}, "radiance", std::move(rgba));
     }
     if (name == "shaded") {
@@ -238,7 +247,7 @@ HostArray Frame::shaded(const std::string& name, const std::vector<uint8_t>& mat
         const double mean = luminance_of(&radiance[4 * i]), n = counts[i];
         variance[i] = float(std::max(0.0, (double(radiance[4 * i + 3]) - mean * mean) * n / (n - 1)));
     }
-    return scalar(std::move(variance), "radiance^2");
+    return scalar(scaled(std::move(variance), r.squared_unit()), "radiance^2");
 }
 
 }  // namespace lightband

@@ -59,6 +59,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     next.stats.width = width_;
     next.stats.height = height_;
     next.eye = scene.camera->eye;
+    next.radiance_unit = scene.light->unit();
     next.slot_of = slots.of_instance;
     next.slots = slots.materials.size();
     job.report(0);

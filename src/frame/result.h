@@ -12,6 +12,7 @@ struct Frame::Result {
 
     Settings settings;
     Vec3 eye{0};
+    double radiance_unit = 1;  // of what shaders wrote: Light::unit()
     GBuffer gbuffer;
     std::optional<Prediction> prediction;
     Shading shading;
@@ -20,6 +21,7 @@ struct Frame::Result {
     double mean_radiance = 0;  // as predicted, of the covered pixels
     ErrorEstimate estimate;
 
+    double squared_unit() const { return radiance_unit * radiance_unit; }
     RoundPixels read_round() const;  // of several frames, their mean
     Tiles tiles() const;
     std::vector<float> areas() const;  // the number of pixels for which each shaded one stands; empty where nothing is interpolated

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "gl/dispatch.h"
 #include "passes/gbuffer.h"
@@ -67,10 +66,7 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
                           settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
                           target.reflected ? "\nOVER_DIRECTIONS" : "",
                           sampler_definition(settings.sampler())));
-    // Of a map so dark that this leaves the range of float, every squared radiance is 0: the largest float times that is 0, as it
-    // should be, where infinity times that is not a number.
-    const double map_density = std::min(1 / scene.light->sampler().total(), double(std::numeric_limits<float>::max()));
-    program.set("map_density", float(map_density));
+    program.set("map_density", float(1 / (4 * pi * scene.light->mean())));
     program.set("pilot_count", int32_t(settings.pilots()));
     program.set("radians_per_pixel", float(scene.camera->radians_per_pixel(height)));
     program.set("footprint_level", float(std::log2(double(light.side) * light.side / (4 * pi))));

@@ -48,7 +48,7 @@ void bind_sampler(const gl::Functions& gl, const Light& light, const Material& m
     if (sampler == Sampler::filtered || sampler == Sampler::cut) {
         const FootprintLight& footprints =
             light.footprints(lookup, sampler == Sampler::cut ? FootprintLight::Kind::below_ceilings : FootprintLight::Kind::whole);
-        program.set("light_unit", float(footprints.unit));
+        program.set("mean_light", float(light.mean()));
         bind_texture(gl, 13, footprints.texture);
     }
     if (sampler == Sampler::cut) {

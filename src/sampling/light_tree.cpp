@@ -85,6 +85,7 @@ Block empty_block(const Grid& grid, uint32_t column, uint32_t row) {
 
 std::vector<Block> blocks_of(const RgbImage& map, const MapSampler& sampler, Lookup lookup) {
     const Grid grid(map, lookup);
+    const double unit = sampler.unit();
     std::vector<Block> blocks;
     for (uint32_t row = 0; row < grid.down(); ++row)
         for (uint32_t column = 0; column < grid.around(); ++column) blocks.push_back(empty_block(grid, column, row));
@@ -101,7 +102,7 @@ std::vector<Block> blocks_of(const RgbImage& map, const MapSampler& sampler, Loo
             const Between at = between((i + 0.5) / grid.columns * map.width, lookup);
             const auto texel = [&](int64_t x) -> const Texel& { return row[size_t((x + map.width) % map.width)]; };
             const Texel light = mix(texel(at.first), texel(at.second), at.part);
-            const Vec3 whole = solid_angle * Vec3(light.rgb[0], light.rgb[1], light.rgb[2]);
+            const Vec3 whole = solid_angle / unit * Vec3(light.rgb[0], light.rgb[1], light.rgb[2]);
             const double weight = Ceilings::part_above(0, light.density) * (whole.x + whole.y + whole.z) / 3;
             Block& block = blocks[size_t(j / grid.side) * grid.around() + i / grid.side];
             for (uint32_t layer = 0; layer < Ceilings::count; ++layer) block.flux[layer] += Ceilings::part_above(layer, light.density) * whole;

@@ -29,7 +29,7 @@ struct LightPart {
     float direction[3];  // unit: the mean over its light
     float sine;          // of the half angle of the cone around it that holds the whole part; 1: a hemisphere or more
     struct Flux {
-        float rgb[3];    // the integral of its radiance above the ceiling
+        float rgb[3];    // the integral of its radiance above the ceiling, in MapSampler::unit()
         float spread;    // flux (mean of RGB) times the variance of the part's directions
     } flux[Ceilings::count];
 };

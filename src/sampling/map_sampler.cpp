@@ -44,6 +44,31 @@ MapSampler::MapSampler(const RgbImage& map) : width_(map.width), height_(map.hei
     }
 }
 
+double MapSampler::unit() const { return std::exp2(std::floor(std::log2(total() / (4 * pi)))); }
+
+double MapSampler::dimmest_octant() const {
+    // The running sum along a row up to a part of its width, within a texel in proportion.
+    const auto sum_to = [this](uint32_t y, double part) {
+        const double at = part * width_;
+        const uint32_t whole = uint32_t(at);
+        const double* row = &texels_[size_t(y) * width_];
+        const double before = whole > 0 ? row[whole - 1] : 0;
+        return whole < width_ ? before + (at - whole) * (row[whole] - before) : before;
+    };
+    double dimmest = rows_.back();
+    for (const double half : {0.0, 0.5})
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            double octant = 0;
+            for (uint32_t y = 0; y < height_; ++y) {
+                // Rows above the horizon, below it, and of a map with an odd number of them the middle one by halves.
+                const double top = std::clamp(half * height_ - y, 0.0, 1.0), bottom = std::clamp((half + 0.5) * height_ - y, 0.0, 1.0);
+                if (bottom > top) octant += (bottom - top) * (sum_to(y, 0.25 * (quarter + 1)) - sum_to(y, 0.25 * quarter));
+            }
+            if (octant > 0) dimmest = std::min(dimmest, octant);
+        }
+    return 8 * dimmest / rows_.back();
+}
+
 double MapSampler::solid_angle(uint32_t row) const {
     const double top = std::cos(pi * row / height_), bottom = std::cos(pi * (row + 1.0) / height_);
     return 2 * pi / width_ * (top - bottom);
@@ -95,7 +120,7 @@ std::vector<MapPoint> draw_map_points(const RgbImage& map, const MapSampler& sam
         const SequencePoint point = sequence_point(i);
         const MapSampler::Sample sample = sampler.sample(to_unit({point.x ^ shift_x, point.y ^ shift_y}));
         const Vec3& d = sample.direction;
-        const Vec3 light = radiance(map, d, lookup);
+        const Vec3 light = radiance(map, d, lookup) / sampler.unit();
         points[i] = {{float(d.x), float(d.y), float(d.z)}, float(1 / sample.pdf),
                      {float(light.x), float(light.y), float(light.z)}, float(lookup == Lookup::linear ? sampler.interpolated_pdf(d) : sampler.pdf(d))};
     }

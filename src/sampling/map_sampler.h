@@ -26,6 +26,12 @@ public:
     double texel_pdf(uint32_t x, uint32_t y) const;
     // Integral over the sphere of the (mean of RGB) radiance that the density is proportional to.
     double total() const { return rows_.back(); }
+    // What shaders count radiance in, whatever a scene is measured in: the power of two at or below the mean of that radiance (1 where the
+    // map is black). So no product of radiances leaves the range of float, and no digit of one changes.
+    double unit() const;
+    // The mean density, over that of the whole sphere, in the dimmest of its octants that any light comes from. Whatever half of the
+    // sphere a surface faces, an octant lies in it.
+    double dimmest_octant() const;
 
 private:
     double solid_angle(uint32_t row) const;  // of one texel of a row
@@ -39,7 +45,7 @@ private:
 struct MapPoint {
     float direction[3];
     float inverse_pdf;
-    float radiance[3];
+    float radiance[3];   // in MapSampler::unit()
     float weight_pdf;  // the density as the shader looks it up elsewhere, for the balance heuristic
 };
 

@@ -303,19 +303,28 @@ void maps_of_any_range(void**) {
         }
 }
 
-// Below 2^-126 a float loses digits one by one, and a device may take it for 0: each of the samples errs by at most that, and
-// so does their mean.
+// Below 2^-126 a float is a whole number of units of 2^-149, and a device may take it for 0. The same map 2^140 times as bright has
+// every digit: the picture is that one's, rounded to whole units.
 void maps_of_denormals(void**) {
     Random random(62);
-    RgbImage map{64, 32, {}};
-    for (int i = 0; i < 64 * 32 * 3; ++i) map.rgb.push_back(float(random.log_uniform(0x1p-149, 0x1p-126)));
+    RgbImage map{64, 32, {}}, brighter = map;
+    for (int i = 0; i < 64 * 32 * 3; ++i) {
+        map.rgb.push_back(float(random.log_uniform(0x1p-149, 0x1p-126)));
+        brighter.rgb.push_back(float(double(map.rgb.back()) * 0x1p140));
+    }
     for (const Subject& subject : subjects()) {
-        Frame frame = sampled_frame(side, side, 64);
-        frame.render(scene_of("sphere", subject.rendered, environment(map)));
-        const std::string name = std::string("texels below 2^-126, ") + subject.name;
+        const auto render = [&](const RgbImage& light) {
+            Frame frame = sampled_frame(side, side, 64);
+            frame.render(scene_of("sphere", subject.rendered, environment(light)));
+            return frame;
+        };
+        const Frame frame = render(map);
+        const std::vector<double> found = luminances(frame), expected = luminances(render(brighter));
         double largest = 0;
-        for (const double value : luminances(frame)) largest = std::max(largest, value);
-        row(name, "largest luminance over 2^-126", largest / 0x1p-126, 1);  // albedos are below 1
+        for (size_t i = 0; i < found.size(); ++i) largest = std::max(largest, std::fabs(found[i] / 0x1p-149 - expected[i] / 0x1p-9));
+        const std::string name = std::string("texels below 2^-126, ") + subject.name;
+        // Half a unit of each channel, and the rounding of three products and two sums of doubles.
+        row(name, "largest deviation of luminance, units of 2^-149", largest, 0.5 + 1e-6);
         row_of_finite_fields(name, frame);
     }
 }

@@ -124,20 +124,22 @@ def test_any_combination_is_finite_counted_and_repeats(
 
 
 @settings(deadline=None, max_examples=40)
-@given(case=cases(tuple(MAPS)), exponent=st.integers(-20, 20))
-@example(case=Case("GGX", "dim", "sphere", 1.0, 0.7, 17, 13, {"samples": 64}), exponent=-20)
+@given(case=cases(tuple(MAPS)), exponent=st.integers(-100, 29))
+@example(case=Case("GGX", "dim", "sphere", 1.0, 0.7, 17, 13, {"samples": 64}), exponent=-100)
 def test_light_times_a_power_of_two(
     context: lightband.Context, materials: dict[str, lightband.Brdf], case: Case, exponent: int
 ) -> None:
-    """Multiplication by a power of two commutes with every rounding: not one bit of a significand changes. (Squares of 6e-8 *
-    2^-20 and of 1e6 * 2^20 are within the range of float.)"""
+    """Multiplication by a power of two commutes with every rounding: not one bit of a significand changes, from texels of 6e-8 *
+    2^-100 = 2^-124 to 1e6 * 2^29 = 5e14. What a field cannot hold is the nearest float."""
     brdf, factor = materials[case.material], 2.0**exponent
     one, other = render(context, brdf, case), render(context, brdf, case, light=factor)
     for name, power in (("color", 1), ("variance_predicted", 2), ("variance_pyramid", 0), ("level", 0), ("sample_count", 0),
                         ("bandwidth_spatial", 0), ("bandwidth_angular", 0), ("bandwidth_image", 0)):
         expected = one.buffer(name)[..., :3] if name == "color" else one.buffer(name)
         found = other.buffer(name)[..., :3] if name == "color" else other.buffer(name)
-        np.testing.assert_array_equal(found, expected * np.float64(factor) ** power, err_msg=name)
+        held = np.minimum(expected * np.float64(factor) ** power, np.finfo(np.float32).max).astype(np.float32)
+        beyond = expected == np.finfo(np.float32).max  # variance as printed: how far, a float does not say
+        np.testing.assert_array_equal(found[~beyond], held[~beyond], err_msg=name)
 
 
 @settings(deadline=None, max_examples=40)

@@ -37,7 +37,7 @@ Vec3 light_above(const RgbImage& map, const MapSampler& sampler, Lookup lookup, 
             const Vec3 d = direction_of(Vec2((i + 0.5) / columns, (j + 0.5) / rows));
             const double density = lookup == Lookup::linear ? sampler.interpolated_pdf(d) : sampler.pdf(d);
             const double solid_angle = 2 * pi / columns * (std::cos(pi * j / rows) - std::cos(pi * (j + 1.0) / rows));
-            sum += solid_angle * Ceilings::part_above(layer, density) * radiance(map, d, lookup);
+            sum += solid_angle * Ceilings::part_above(layer, density) * radiance(map, d, lookup) / sampler.unit();
         }
     return sum;
 }
@@ -104,7 +104,7 @@ void a_fine_cut_is_the_integral(void**) {
                 const Vec3 d = direction_of(Vec2((i + 0.5) / columns, (j + 0.5) / rows));
                 const double solid_angle = 2 * pi / columns * (std::cos(pi * j / rows) - std::cos(pi * (j + 1.0) / rows));
                 expected += solid_angle * std::max(0.0, glm::dot(d, normal)) * Ceilings::part_above(0, sampler.interpolated_pdf(d)) *
-                            luminance(radiance(map, d, Lookup::linear));
+                            luminance(radiance(map, d, Lookup::linear)) / sampler.unit();
             }
         check_close("irradiance", found / expected, 1, 5e-3);
     }
@@ -114,9 +114,10 @@ void one_lamp_is_one_place(void**) {
     RgbImage map{128, 64, std::vector<float>(3 * 128 * 64, 0), false};
     const uint32_t x = 31, y = 20;
     for (int c = 0; c < 3; ++c) map.rgb[3 * (y * 128 + x) + c] = 1e6f;
-    const LightTree tree = light_tree(map, MapSampler(map), Lookup::nearest);
+    const MapSampler sampler(map);
+    const LightTree tree = light_tree(map, sampler, Lookup::nearest);
     const Vec3 lamp = direction_of(Vec2((x + 0.5) / 128, (y + 0.5) / 64));
-    const double expected = 1e6 * 2 * pi / 128 * (std::cos(pi * y / 64) - std::cos(pi * (y + 1) / 64));
+    const double expected = 1e6 / sampler.unit() * 2 * pi / 128 * (std::cos(pi * y / 64) - std::cos(pi * (y + 1) / 64));
     for (uint32_t k = 0; k <= 2 * LightTree::depth + 1; ++k) {
         const uint32_t depth = k / 2;
         const LightTree::Trunk& trunk = LightTree::trunks[k % 2];

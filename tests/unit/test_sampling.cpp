@@ -9,6 +9,7 @@
 #include "sampling/map_sampler.h"
 #include "sampling/pilots.h"
 #include "sampling/sequence.h"
+#include "scene/environment.h"
 
 namespace lightband {
 namespace {
@@ -410,6 +411,39 @@ RgbImage lamps() {
     return map;
 }
 
+void radiance_is_counted_in_a_power_of_two(void**) {
+    const std::pair<float, double> units[] = {{1.0f, 1}, {3.0f, 2}, {0.7f, 0.5}, {1e15f, 0x1p49}, {0x1.8p-140f, 0x1p-140}, {0.0f, 1}};
+    for (const auto& [radiance, unit] : units) {
+        RgbImage map{8, 4, std::vector<float>(8 * 4 * 3, radiance), false};
+        // The mean of equal numbers rounds to either side of them.
+        if (radiance > 0) map.rgb[0] *= 1.0001f;
+        check_close("unit", MapSampler(map).unit(), unit, 0);
+    }
+}
+
+// Against the density, looked up at the middles of cells that cut every texel and the octants' edges evenly.
+void the_dimmest_octant_is_that_of_the_density(void**) {
+    const std::pair<uint32_t, uint32_t> sizes[] = {{1, 1}, {2, 1}, {6, 3}, {5, 5}, {64, 32}};
+    for (const auto& [width, height] : sizes) {
+        Random random(width);
+        RgbImage map{width, height, {}, false};
+        for (size_t i = 0; i < size_t(width) * height * 3; ++i) map.rgb.push_back(float(random.log_uniform(1e-6, 1)));
+        const MapSampler sampler(map);
+        const uint32_t columns = 8 * width, rows = 8 * height;
+        double octants[8] = {};
+        for (uint32_t j = 0; j < rows; ++j)
+            for (uint32_t i = 0; i < columns; ++i) {
+                const double solid_angle = 2 * pi / columns * (std::cos(pi * j / rows) - std::cos(pi * (j + 1.0) / rows));
+                const Vec3 d = direction_of(Vec2((i + 0.5) / columns, (j + 0.5) / rows));
+                octants[4 * (j >= rows / 2) + i / (2 * width)] += solid_angle * sampler.pdf(d);
+            }
+        check_close("dimmest octant", sampler.dimmest_octant() / (8 * *std::min_element(octants, octants + 8)), 1, 1e-9);
+    }
+    RgbImage lit{64, 32, std::vector<float>(64 * 32 * 3), false};
+    lit.rgb[3 * (4 * 64 + 8)] = 1;
+    check_close("the one that is lit", MapSampler(lit).dimmest_octant(), 8, 1e-9);
+}
+
 Vec3 direction_of(const MapPoint& point) { return {point.direction[0], point.direction[1], point.direction[2]}; }
 
 void clusters_hold_all_points_and_equal_light(void**) {
@@ -502,6 +536,8 @@ int main() {
         cmocka_unit_test(lattice_points_keep_their_distance),
         cmocka_unit_test(pilots_carry_the_albedo),
         cmocka_unit_test(pilots_stand_for_their_solid_angles),
+        cmocka_unit_test(radiance_is_counted_in_a_power_of_two),
+        cmocka_unit_test(the_dimmest_octant_is_that_of_the_density),
         cmocka_unit_test(clusters_hold_all_points_and_equal_light),
         cmocka_unit_test(pairs_of_a_cluster_lie_in_both_halves),
         cmocka_unit_test(importance_adds_up_to_the_albedo),
