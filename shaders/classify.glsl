@@ -35,6 +35,7 @@ layout(binding = 5) uniform sampler2D prediction;
 #endif
 #if defined(FURTHER_ROUND)
 layout(binding = 6) uniform usampler2D former_bins;  // of pixels that former rounds shaded, by what they measured
+uniform int fresh_steps;  // of the others, above what is predicted
 #endif
 layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;
 layout(binding = 3, r32ui) readonly uniform uimage2D sample_counts;  // of former rounds
@@ -145,7 +146,7 @@ void main() {
     bin = share(variance, area);
 #endif
 #if defined(FURTHER_ROUND)
-    if (former) bin = int(texelFetch(former_bins, at, 0).r);
+    bin = former ? int(texelFetch(former_bins, at, 0).r) : clamp(bin + fresh_steps, 0, BINS - 1);
 #endif
     if (interpolate && !chosen)
         imageStore(decisions, at, uvec4(interpolate_it));

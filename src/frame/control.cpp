@@ -48,6 +48,8 @@ constexpr double aim = 0.8, near_enough = 0.85, good_enough = 0.93;
 // Standard errors of an estimate that are added before a round is called good enough.
 constexpr double caution = 1;
 constexpr uint32_t most_rounds = 8;
+// What so many rounds have not found levels for is not interpolated.
+constexpr uint32_t most_refinements = 5;
 // Steps of a tile's scale below the least would not be worth a new classification.
 constexpr double least_growth = 1.1, most_growth = 8;
 // Shares of interpolation that a frame may choose from, where it foresees what they cost.
@@ -369,11 +371,14 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
         return true;
     }
     choose_witnesses(estimate);
+    // No user's scale is given up.
+    const bool gives_up = interpolates_ && round_ >= most_refinements && !(settings_.bandwidth_scale() > 0);
+    if (gives_up) interpolates_ = false;
     const double goal = this->goal(), share = share_of_interpolation(), shading_allowed = noise_allowed();
     // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again. What they may have seen
     // by chance is no reason to shade more, unless there is no noise left to blame.
-    bool grown = false;
-    if (estimate.shading() <= trusted_noise * shading_allowed)
+    bool grown = gives_up;
+    if (interpolates_ && estimate.shading() <= trusted_noise * shading_allowed)
         grown = improve_levels(estimate, std::clamp(goal - estimate.shading(), share * goal, std::max(share, most_interpolation) * goal),
                                estimate.shading() > blameless_noise * shading_allowed ? 1 : 0);
     if (!grown && estimate.shading() <= shading_allowed) {

@@ -50,7 +50,7 @@ public:
     double left_by_finer(double times) const;
     // What was learnt of the device.
     const Pace& pace() const { return pace_; }
-    // Whether pixels may be interpolated.
+    // Whether pixels may be interpolated; no longer, where it does not pay or rounds have not found levels for it.
     bool interpolates() const { return interpolates_; }
     // Before the first round: coarser levels, where the time that is left does not last for so many pixels; no interpolation, where it
     // does not pay. True: pixels are to be classified anew.

@@ -86,19 +86,30 @@ double witnessed(const RoundPixels& pixels, size_t at, double scale, double trut
     return std::clamp(deviation * deviation - truth * difference * difference, -AuditSum::largest_square, AuditSum::largest_square);
 }
 
-// Witnesses stand for the pixels that are interpolated, where any is.
+// Of the pixels that might be interpolated, of which audited ones are witnesses, the part that is. Others show what was drawn there when
+// they were witnesses of this round or a former one.
+double interpolated_part(const RoundPixels& pixels, const std::vector<Audited>& audited, const ErrorEstimate& estimate) {
+    double covered = 0, interpolated = 0, witnesses = 0;
+    for (const ErrorEstimate::Slot& slot : estimate.slots) {
+        covered += double(slot.covered);
+        interpolated += double(slot.interpolated);
+    }
+    for (const Audited& pixel : audited) witnesses += is_witness(pixels.decision[pixel.at]);
+    return witnesses > 0 ? std::min(interpolated / covered / (witnesses / double(audited.size())), 1.0) : 0;
+}
+
+// Audited witnesses stand for the pixels that might be interpolated, whether they are or not.
 void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, double truth, ErrorEstimate* estimate) {
     AuditSum sum(part_of(pixels, audited));
-    const bool interpolated =
-        std::any_of(estimate->slots.begin(), estimate->slots.end(), [](const ErrorEstimate::Slot& slot) { return slot.interpolated > 0; });
+    const double part = interpolated_part(pixels, audited, *estimate);
     for (const Audited& pixel : audited) {
         const double per_scale = estimate->stratification / (pixel.scale * pixel.scale);
-        if (!interpolated || !is_witness(pixels.decision[pixel.at])) {
-            pixel.add_to(&sum, pixel.drawn, per_scale * variance_of_mean(pixels, pixel.at));
-            continue;
+        double square = pixel.drawn, told = per_scale * variance_of_mean(pixels, pixel.at);
+        if (is_witness(pixels.decision[pixel.at])) {
+            square += part * (pixel.interpolated - square);
+            told += part * (per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth) - told);
         }
-        pixel.add_to(&sum, pixel.interpolated,
-                     per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth));
+        pixel.add_to(&sum, square, told);
     }
     const AuditSum::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
     estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise);

@@ -199,13 +199,18 @@ void Frame::choose_levels(Job* job, const Control& control, const Forecast& fore
 // Which pixels are shaded.
 void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
+    if (next.prediction && !control->interpolates()) {
+        next.prediction->pyramids.reset();
+        next.prediction->mirrors.reset();
+        job->tiles = {};
+    }
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
     const passes::Witnesses witnesses{control->witnesses(), job->audited, settings.seed(), next.stats.rounds};
     const bool interpolates = prediction != nullptr && prediction->interpolates();
     if (interpolates) choose_levels(job, *control, forecast, witnesses);
     const std::vector<Lamp> none;
     const passes::Criteria criteria{job->settings, interpolates ? job->scene.light->lamps() : none, witnesses, control->tolerance(),
-                                    job->redraw.bins};
+                                    job->redraw.bins, int(std::lround(bins_per_octave * std::log2(job->grown)))};
     job->counts = passes::classify(*device_, job->slot_of, next.slots, criteria, forecast, width_, job->covered, next.gbuffer, prediction,
                                    next.shading);
     next.plan.finished("classify", interpolates ? "shade or interpolate" : "every covered pixel is shaded",
@@ -215,18 +220,13 @@ void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
 void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     const bool first = next.stats.rounds == 1;
-    if (!first)
+    if (!first) {
         job->redraw = redraw(job->pixels, control->interpolates() ? next.areas() : std::vector<float>(), next.estimate.mean_luminance,
                              settings.allocation(), control->budget(), control->wanted_part());
-    decide(job, control, forecast);
-    if (control->reconsider(job->counts.bins(), next.plan.total_milliseconds())) {
-        if (!control->interpolates()) {
-            next.prediction->pyramids.reset();
-            next.prediction->mirrors.reset();
-            job->tiles = {};
-        }
-        decide(job, control, forecast);
+        job->grown *= job->redraw.growth;
     }
+    decide(job, control, forecast);
+    if (control->reconsider(job->counts.bins(), next.plan.total_milliseconds())) decide(job, control, forecast);
     const double elapsed = next.plan.total_milliseconds();
     const Histogram fresh = job->counts.fresh_bins();
     const Budget& budget = first ? control->plan(fresh, elapsed) : control->plan_further(job->redraw.drawn, fresh, elapsed);

@@ -23,6 +23,7 @@ struct Frame::Job {
     passes::ShadingList list{};              // of the last round
     RoundPixels pixels{};                    // as the last round left them
     Redraw redraw{};                         // what a further round knows of it
+    double grown = 1;                        // samples of shaded pixels, all together, since they were first drawn
     Redrawing drawn{};                       // of the last round, as planned
     uint64_t samples = 0;                    // of the picture as it is
     RoundCost cost{};                        // of the last round

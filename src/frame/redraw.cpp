@@ -90,6 +90,7 @@ Redraw redraw(const RoundPixels& pixels, const std::vector<float>& areas, double
     }
     const double factor = !(deserved > 0) ? 0 : part > 0 ? factor_leaving(part, drawn) : had / deserved;
     std::map<std::pair<uint32_t, uint32_t>, double> groups;
+    double planned = 0;
     for (const Candidate& pixel : drawn) {
         const uint32_t worth = worth_redrawing * uint32_t(pixel.samples);
         uint32_t bin = bin_of(factor * pixel.deserved, worth, budget);
@@ -97,9 +98,11 @@ Redraw redraw(const RoundPixels& pixels, const std::vector<float>& areas, double
         // that it may have is counted by its bin.
         if (part > 0 && budget[bin] < worth && budget[bin] < budget.back()) bin = 0;
         result.bins[pixel.at] = uint8_t(bin);
+        planned += part > 0 ? std::max(double(budget[bin]), pixel.samples) : pixel.samples;
         ++groups[{bin, uint32_t(pixel.samples)}];
     }
     for (const auto& [key, count] : groups) result.drawn.push_back({key.first, key.second, count});
+    if (had > 0) result.growth = planned / had;
     return result;
 }
 

@@ -9,6 +9,7 @@ namespace lightband {
 struct Redraw {
     std::vector<uint8_t> bins;      // of the budget that each pixel moves to; meaningless where no former round drew
     std::vector<DrawnGroup> drawn;  // those where one did
+    double growth = 1;              // of their samples, all together
 };
 
 // budget: of the former round. part: of the noise that is to be left by it; 0: pixels move to bins so that on the whole they keep

@@ -86,7 +86,10 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
         bind_texture(gl, 11, prediction->mirrors->occupants.texture);
         bind_texture(gl, 12, prediction->mirrors->mirrors.texture);
     }
-    if (further) bind_texture(gl, 6, former);
+    if (further) {
+        bind_texture(gl, 6, former);
+        program.set("fresh_steps", int32_t(criteria.fresh_steps));
+    }
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_image(gl, 3, target.sample_count, GL_R32UI);
     bind_storage(gl, 0, counts);

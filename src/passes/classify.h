@@ -20,13 +20,14 @@ struct Counts {
 
 // By what pixels are decided, beside what was predicted. lamps: across whose horizons nothing is interpolated. witnesses: of those that
 // might be interpolated, which are shaded all the same. tolerance: shaders/pilots_say.glsl. former_bins: of the pixels that former rounds
-// shaded; empty in the first.
+// shaded; empty in the first. fresh_steps: how many bins the others lie above what prediction says, since those turned out to need more.
 struct Criteria {
     const Settings& settings;
     const std::vector<Lamp>& lamps;
     Witnesses witnesses;
     double tolerance;
     const std::vector<uint8_t>& former_bins;
+    int fresh_steps;
 };
 
 // Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike.

@@ -226,13 +226,28 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
     }
 }
 
+// Of a synthetic frame, as if drawn by chance: each witness, and two of the pixels that are shaded anyway, of which there are twice as many
+// as are interpolated.
+std::vector<uint32_t> audited_places(uint32_t count) {
+    std::vector<uint32_t> places;
+    for (uint32_t i = 0; i + 8 <= count; i += 8) {
+        places.push_back(i);
+        for (uint32_t k = i + 1, found = 0; found < 2; ++k)
+            if (k % 3 != 0) {
+                places.push_back(k);
+                ++found;
+            }
+    }
+    return places;
+}
+
 // Interpolated pixels whose parents and witnesses all err alike, so that no witness sees it: an audit does.
 void an_audit_sees_what_neighbours_share(void**) {
     Random random(18);
     const double shared = 0.2, scale = 2.22;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
     Audit audit;
-    for (uint32_t i = 0; i < 20000; i += 8) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, 0, false});
+    for (const uint32_t i : audited_places(20000)) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, 0, false});
     const ErrorEstimate estimate = estimated(pixels, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-6);
     check_close("error", estimate.error(), shared / scale, 0.02 * shared);
@@ -245,15 +260,42 @@ void an_audit_judges_what_would_be_interpolated(void**) {
     const double wrong = 0.2, spread = 0.02, scale = 2.02;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
     Audit audit;
-    for (uint32_t i = 0; i < 20000; i += 8) {
-        pixels.spread[4 * i] = float(spread);
-        pixels.spread[4 * i + 1] = pixels.spread[4 * i + 2] = float(wrong);
-        audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : -spread)), 0, 0, 0, false});
+    for (const uint32_t i : audited_places(20000)) {
+        if (i % 8 == 0) {
+            pixels.spread[4 * i] = float(spread);
+            pixels.spread[4 * i + 1] = pixels.spread[4 * i + 2] = float(wrong);
+        }
+        audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : i % 8 == 0 ? -spread : 0)), 0, 0, 0, false});
     }
     const ErrorEstimate estimate = estimated(pixels, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-5);
-    // The audit's mean is off by the spread either way: its square is a hundredth of the error's, half a hundredth of its root.
-    check_close("error", estimate.error(), wrong / scale, 0.02 * wrong / scale);
+    // The audit's mean is off by the spread either way: its square is a hundredth of the error's, half a hundredth of its root; at the
+    // eighth of the pixels that are witnesses it is all there is, another half.
+    const double expected = wrong / scale * std::sqrt(double(estimate.slots[0].interpolated) / 20000);
+    check_close("error", estimate.error(), expected, 0.03 * expected);
+}
+
+// Of the pixels that might be interpolated, half were witnesses of a former round and show what they drew, which is wrong. Audited ones
+// are witnesses still: what they drew counts for as many as show it.
+void what_former_witnesses_show_counts(void**) {
+    Random random(29);
+    const double wrong = 0.2, scale = 2.22;  // of what the audit saw
+    RoundPixels pixels = synthetic(random, 24000, 1e-6, 0);
+    Audit audit;
+    uint64_t wrong_pixels = 0;
+    for (uint32_t i = 0; i < 24000; ++i) {
+        const bool audited = i % 8 == 0, might_be = i % 3 != 0, is = might_be && !audited && i % 3 == 1, shows_wrong = might_be && !is;
+        pixels.decision[i] = is ? interpolated : audited && might_be ? witness : shaded;
+        pixels.sample_count[i] = is ? 0 : 64;
+        std::fill_n(&pixels.spread[4 * i], 4, 0.0f);
+        if (audited && might_be) pixels.spread[4 * i + 1] = float(wrong);  // interpolated, it would be right
+        if (audited) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + (shows_wrong ? wrong : 0)), 0, 0, 0, false});
+        wrong_pixels += shows_wrong;
+    }
+    const ErrorEstimate estimate = estimated(pixels, audit);
+    // Witnesses deviate by what is wrong with what was drawn there, which counts as interpolation's; the rest is bias.
+    const double expected = std::pow(wrong / scale, 2) * double(wrong_pixels) / 24000;
+    check_close("error", estimate.error(), std::sqrt(expected), 0.02 * std::sqrt(expected));
 }
 
 // By the frame's own sampler: what it shows of itself is taken off, and it is silent where it knows no better.
@@ -584,6 +626,7 @@ int main() {
         cmocka_unit_test(a_probe_believes_its_audit),
         cmocka_unit_test(an_audit_sees_what_neighbours_share),
         cmocka_unit_test(an_audit_judges_what_would_be_interpolated),
+        cmocka_unit_test(what_former_witnesses_show_counts),
         cmocka_unit_test(an_audit_of_the_same_sampler_knows_its_limits),
         cmocka_unit_test(what_varies_most_is_drawn_anew),
         cmocka_unit_test(further_rounds_within_a_cost_spend_it),
