@@ -90,7 +90,11 @@ void main() {
         vec4 a = texelFetch(pilots, 2 * (first + i)), b = texelFetch(pilots, 2 * (first + i) + 1);
         if (a.w == 0.0) continue;
         vec3 wi = 2.0 * dot(wo, a.xyz) * a.xyz - wo;
-        float level = max(0.0, 0.5 * (b.z + footprint_level));
+        float steradians = b.z;  // log2
+#if defined(HIDES_LIGHT)
+        steradians = min(steradians, log2(pi * wi.z * wi.z));  // shaders/light.glsl: no wider than it is high
+#endif
+        float level = max(0.0, 0.5 * (steradians + footprint_level));
         vec3 light = textureLod(moments, octahedral(frame * wi), level).xyz;
         if (light.x <= 0.0) continue;
         float light_bandwidth = light.z / light.x;

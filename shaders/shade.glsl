@@ -67,7 +67,8 @@ vec3 light_of_sample(Pixel pixel, vec2 u, float footprints, bool wide) {
     if (!sample_lobe(pixel.lobe, u, wi, weight, density)) return vec3(0);
     vec3 direction = pixel.frame * wi;
 #if defined(FILTERED)
-    return weight * (wide ? light_of_footprint(direction, density, footprints) : light_for_lobe(direction, density, footprints));
+    return weight * (wide ? light_of_footprint(direction, wi.z, density, footprints)
+                          : light_for_lobe(direction, wi.z, density, footprints));
 #else
     vec4 light = light_from(direction);
 #if defined(SAMPLER_COMBINED)

@@ -11,15 +11,6 @@ namespace {
 // Footprints below a texel are looked up in the map itself; 256 texels a side are some 0.8 degrees wide.
 constexpr uint32_t smallest_side = 16, largest_side = 256;
 
-// Of the map's mean: half floats keep all their digits down to 2^-14, and weights of solid angle are a fifth at least.
-constexpr double least_for_halves = 0x1p-11;
-
-// Half floats hold what is cut, some 3 2^13 times the mean at most, where no surface may face light that is too dim for them. Of the
-// whole, a texel may be brighter.
-bool fits_halves(const Light& light, FootprintLight::Kind kind) {
-    return kind == FootprintLight::Kind::below_ceilings && light.sampler().dimmest_octant() >= least_for_halves;
-}
-
 }  // namespace
 
 FootprintLight footprint_light(const Light& light, Lookup lookup, FootprintLight::Kind kind) {
@@ -28,9 +19,10 @@ FootprintLight footprint_light(const Light& light, Lookup lookup, FootprintLight
     FootprintLight result;
     const uint32_t map_height = light.map().height, side = octahedral_side(map_height, smallest_side, largest_side);
     const uint32_t levels = uint32_t(std::log2(side)) + 1;
-    const bool halves = fits_halves(light, kind);
+    // Half floats hold what is cut, some 3 2^13 times the mean at most; of the whole, a texel may be brighter.
+    const bool below = kind == FootprintLight::Kind::below_ceilings, halves = below && !light.hides_light();
     const GLenum format = halves ? GL_RGBA16F : GL_RGBA32F;
-    const uint32_t layers = kind == FootprintLight::Kind::below_ceilings ? Ceilings::count : 1;
+    const uint32_t layers = below ? Ceilings::count : 1;
     result.texture = gl::Texture::image_array(gl, format, side, side, layers, levels);
 
     const std::string definitions = FootprintLight::definitions(kind) + (halves ? "\nLIGHT_FORMAT rgba16f" : "\nLIGHT_FORMAT rgba32f");

@@ -53,6 +53,9 @@ public:
     const MapSampler& sampler() const { return sampler_; }
     // The radiance of a value of 1 in whatever shaders read and write: MapSampler::unit().
     double unit() const { return unit_; }
+    // Whether a surface may face light so dim beside what it does not see that lookups need care: halves would not hold it, and
+    // footprints that reach below the horizon would drown it.
+    bool hides_light() const { return hides_light_; }
     // Over the sphere, in units.
     double mean() const { return sampler_.total() / (4 * pi) / unit_; }
     const std::vector<Lamp>& lamps() const;
@@ -68,6 +71,7 @@ private:
     const RgbImage map_;
     const MapSampler sampler_;
     const double unit_;
+    const bool hides_light_;
     gl::Texture texture_;  // RGB radiance in units; alpha: the sampler's density, per steradian
     mutable std::optional<std::vector<Lamp>> lamps_;
     mutable std::map<BandRule, EnvironmentBandwidth> bandwidths_;

@@ -65,6 +65,7 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
                           settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
                           settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
                           target.reflected ? "\nOVER_DIRECTIONS" : "",
+                          scene.light->hides_light() ? "\nHIDES_LIGHT" : "",
                           sampler_definition(settings.sampler())));
     program.set("map_density", float(1 / (4 * pi * scene.light->mean())));
     program.set("pilot_count", int32_t(settings.pilots()));

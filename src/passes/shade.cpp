@@ -16,7 +16,7 @@ constexpr uint64_t dispatch_samples = 1u << 23;
 // than one.
 constexpr uint32_t group = 32;
 
-std::string definitions(const Material& material, const Settings& settings) {
+std::string definitions(const Light& light, const Material& material, const Settings& settings) {
     std::string result = material.definitions(settings.brdf_lookup()) +
                          text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples, "\nWORTH_REDRAWING ",
                               worth_redrawing, "u");
@@ -36,6 +36,7 @@ std::string definitions(const Material& material, const Settings& settings) {
             break;
         case Sampler::brdf: break;
     }
+    if (light.hides_light()) result += "\nHIDES_LIGHT";
     if (settings.environment_lookup() == Lookup::nearest) result += "\nENVIRONMENT_NEAREST";
     return result;
 }
@@ -73,7 +74,7 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
     uint64_t done = 0;
     for (const ShadingList::Part& part : list.parts) {
         const Material& material = *slots.materials[part.slot];
-        const gl::Program& program = device.compute("shade", definitions(material, settings));
+        const gl::Program& program = device.compute("shade", definitions(*scene.light, material, settings));
         program.set("seed", seeds.samples);
         program.set_array("samples", list.samples.data(), int32_t(budget_bins));
         material.bind(program);
