@@ -98,6 +98,22 @@ Audit::Effort Audit::effort(const Settings& settings, double covered_pixels, dou
     return {part, biased ? uint32_t(samples) : 0, uint32_t(probe)};
 }
 
+void SharedError::add(double deviation, double own_part) {
+    const double believed = std::clamp(deviation, -1.0, 1.0);
+    ++count_;
+    sum_ += believed;
+    squares_ += believed * believed;
+    // An error that falls as n^(-g / 2) shows so much against that of an audit.
+    shown_ += 1 - std::pow(own_part, 0.5 * stratified_gain);
+}
+
+double SharedError::hidden() const {
+    if (count_ < 2) return 0;
+    const double mean = sum_ / count_, variance = (squares_ - sum_ * mean) / (count_ - 1), shown = shown_ / count_;
+    // A mean of deviations to either side is not 0 either.
+    return std::max(mean * mean - variance / count_, 0.0) * (1 / (shown * shown) - 1);
+}
+
 void AuditSum::add(double square, double told) {
     squares_.push_back(square);
     told_.push_back(std::min(told, largest_square));

@@ -52,6 +52,19 @@ struct Audit {
     static bool refutes(const Pixel& unbiased, const Pixel& cut);
 };
 
+// What audited pixels err by alike, to the same side, as a cut of few parts does on an even surface. Their audit errs to that side too,
+// only less, and shows the less of it.
+class SharedError {
+public:
+    // What a pixel shows beside its audit, relatively; own_part: its samples, in parts of the audit's.
+    void add(double deviation, double own_part);
+    // Mean square that does not show.
+    double hidden() const;
+
+private:
+    double count_ = 0, sum_ = 0, squares_ = 0, shown_ = 0;
+};
+
 // What audited pixels err by over what their spreads tell.
 class AuditSum {
 public:

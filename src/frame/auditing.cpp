@@ -88,13 +88,21 @@ double Frame::rehearsed(const Job& job, double mean_radiance) const {
 // The mean squared error that a probe's pixels have.
 double Frame::probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const {
     AuditSum sum(job.audited);
+    SharedError shared;
+    for (size_t k = 0; k < job.audit.pixels.size(); ++k) {
+        const Audit::Pixel& seen = job.audit.pixels[k];
+        const double known = scale_of(seen, forecast.mean_radiance);
+        if (seen.biased && known > 0)
+            shared.add(double(probe[k].mean - seen.mean) / known, double(forecast.probe_samples) / job.audit.samples);
+    }
+    const double hidden = shared.hidden();
     for (size_t k = 0; k < probe.size(); ++k) {
         const double scale = scale_of(probe[k].mean, probe[k].expected, forecast.mean_radiance);
         if (!(scale > 0)) continue;
         const double told = std::pow(probe[k].spread / scale, 2);
         if (job.audited > 0) {
             const Audit::Pixel& seen = job.audit.pixels[k];
-            sum.add(job.audit.square(seen, probe[k].mean, scale_of(seen, forecast.mean_radiance), forecast.probe_samples), told);
+            sum.add(job.audit.square(seen, probe[k].mean, scale_of(seen, forecast.mean_radiance), forecast.probe_samples) + hidden, told);
         } else {
             sum.add_believed(told);
         }

@@ -44,6 +44,8 @@ struct Audited {
     size_t at;
     double scale;
     bool overtaken;       // by its own samples: its spreads are believed
+    double deviation;     // of what was drawn there: not squared
+    double own_part;      // its samples, in parts of the audit's; 0: it errs in another way
     double drawn;         // what was drawn there
     double interpolated;  // what interpolation would show, at a witness
 
@@ -60,7 +62,8 @@ std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit,
         if (!(scale > 0) || !(known > 0) || samples == 0) continue;
         const double shown = luminance_at(pixels, i), drawn = audit.square(seen, shown, known, samples);
         const bool witness = is_witness(pixels.decision[i]);
-        result.push_back({i, scale, !audit.tells_of(seen, samples), drawn,
+        result.push_back({i, scale, !audit.tells_of(seen, samples), (shown - double(seen.mean)) / known,
+                          seen.biased ? samples / audit.samples : 0, drawn,
                           witness ? audit.square_of_other(seen, shown + pixels.spread[4 * i + 1], known, drawn, samples) : 0});
     }
     return result;
@@ -86,6 +89,13 @@ double witnessed(const RoundPixels& pixels, size_t at, double scale, double trut
     return std::clamp(deviation * deviation - truth * difference * difference, -AuditSum::largest_square, AuditSum::largest_square);
 }
 
+double hidden_of(const std::vector<Audited>& audited) {
+    SharedError shared;
+    for (const Audited& pixel : audited)
+        if (!pixel.overtaken && pixel.own_part > 0) shared.add(pixel.deviation, pixel.own_part);
+    return shared.hidden();
+}
+
 // Of the pixels that might be interpolated, of which audited ones are witnesses, the part that is. Others show what was drawn there when
 // they were witnesses of this round or a former one.
 double interpolated_part(const RoundPixels& pixels, const std::vector<Audited>& audited, const ErrorEstimate& estimate) {
@@ -101,7 +111,7 @@ double interpolated_part(const RoundPixels& pixels, const std::vector<Audited>& 
 // Audited witnesses stand for the pixels that might be interpolated, whether they are or not.
 void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, double truth, ErrorEstimate* estimate) {
     AuditSum sum(part_of(pixels, audited));
-    const double part = interpolated_part(pixels, audited, *estimate);
+    const double part = interpolated_part(pixels, audited, *estimate), hidden = hidden_of(audited);
     for (const Audited& pixel : audited) {
         const double per_scale = estimate->stratification / (pixel.scale * pixel.scale);
         double square = pixel.drawn, told = per_scale * variance_of_mean(pixels, pixel.at);
@@ -109,7 +119,7 @@ void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, do
             square += part * (pixel.interpolated - square);
             told += part * (per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth) - told);
         }
-        pixel.add_to(&sum, square, told);
+        pixel.add_to(&sum, square + hidden, told);
     }
     const AuditSum::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
     estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise);
