@@ -72,8 +72,7 @@ vec3 light_of_footprint(vec3 direction, float height, vec2 density, float footpr
     int layer = light_layer(density);
     float reach = octahedral_reach(direction), texels = texels_covered(reach, density.y / footprints) / density.x;
 #if defined(HIDES_LIGHT)
-    // What a surface does not see may be thousands of times as bright: no footprint is wider than it is high. (Under usual maps that
-    // errs 3 to 5 % more, at 24 to 384 samples: docs/decisions/0008.)
+    // What a surface does not see may be thousands of times as bright: no footprint is wider than it is high (docs/decisions/0014).
     texels = min(texels, texels_covered(reach, pi * height * height));
 #endif
     vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels));
