@@ -119,9 +119,14 @@ def test_one_texel_of_a_million(context):
     assert abs(cut.color[covered][:, :3].mean() / truth.color[covered][:, :3].mean() - 1) < 0.02
 
 
-def test_tables_are_made_when_they_are_asked_for(context):
-    """A layer of 16 bytes a texel on the square that fits the map, or eight of 8 and the tree; with all coarser levels."""
-    environment = context.environment(light(directions()))  # 128 rows: a square of 128 texels a side
+@pytest.mark.parametrize("hides, bytes_below", [(False, 8), (True, 16)])
+def test_tables_are_made_when_they_are_asked_for(context, hides, bytes_below):
+    """A layer of 16 bytes a texel on the square that fits the map, or eight of 8 and the tree; with all coarser levels. Of 16 where a
+    surface may face light so dim beside what it does not see that halves would not hold it."""
+    radiance = light(directions())
+    if hides:
+        radiance[40, 0] = 1e9
+    environment = context.environment(radiance)  # 128 rows: a square of 128 texels a side
     scene = scene_of(context, context.ggx(0.3, (0.9, 0.9, 0.9)), environment)
     texels = sum((128 >> level) ** 2 for level in range(8))
     sizes = [rendered(context, scene, samples=16, sampler=sampler, **EVERY).stats.device_bytes
@@ -131,7 +136,7 @@ def test_tables_are_made_when_they_are_asked_for(context):
     tree = (64 + 32) * (512 * (4 + 8 * 4) * 4 + 32)  # two trunks, each of whose parts has a heap
     assert sizes[1] - sizes[0] == 16 * texels + points + importance
     assert sizes[2] == sizes[1]
-    assert sizes[3] - sizes[2] == 8 * 8 * texels + tree
+    assert sizes[3] - sizes[2] == 8 * bytes_below * texels + tree
 
 
 def test_a_reference_has_no_bias(context, smooth):
