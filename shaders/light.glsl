@@ -66,14 +66,16 @@ float density_of_map(float footprints) {
     return texels_covered(longest_reach, 1.0 / (least_texels * footprints));
 }
 
+// What a surface does not see may be thousands of times as bright: no footprint is wider than it is high (docs/decisions/0014).
+float texels_above_horizon(float reach, float height) { return texels_covered(reach, pi * height * height); }
+
 // The mean over a sample's footprint, of which the whole lobe holds that many, of what a cut leaves it. Of a footprint that is smaller
 // than a texel, the finest texels. height: sine of the direction above the horizon.
 vec3 light_of_footprint(vec3 direction, float height, vec2 density, float footprints) {
     int layer = light_layer(density);
     float reach = octahedral_reach(direction), texels = texels_covered(reach, density.y / footprints) / density.x;
 #if defined(HIDES_LIGHT)
-    // What a surface does not see may be thousands of times as bright: no footprint is wider than it is high (docs/decisions/0014).
-    texels = min(texels, texels_covered(reach, pi * height * height));
+    texels = min(texels, texels_above_horizon(reach, height));
 #endif
     vec4 mean = textureLod(footprint_light, vec3(octahedral(direction), layer), 0.5 * log2(texels));
     return mean.rgb * (mean_light / mean.a);
@@ -82,7 +84,12 @@ vec3 light_of_footprint(vec3 direction, float height, vec2 density, float footpr
 // The same, where that may be: the map's own light instead.
 vec3 light_for_lobe(vec3 direction, float height, vec2 density, float footprints) {
     int layer = light_layer(density);
-    if (layer < LIGHT_LAYERS && texels_covered(octahedral_reach(direction), density.y / footprints) > least_texels * density.x)
+    float reach = octahedral_reach(direction);
+    bool wide = texels_covered(reach, density.y / footprints) > least_texels * density.x;
+#if defined(HIDES_LIGHT)
+    wide = wide && texels_above_horizon(reach, height) > least_texels;
+#endif
+    if (layer < LIGHT_LAYERS && wide)
         return light_of_footprint(direction, height, density, footprints);
     vec4 light = light_from(direction);
     return layer < LIGHT_LAYERS ? light.rgb * part_below(layer, light.a) : light.rgb;

@@ -19,7 +19,7 @@ Light::Light(gl::DevicePtr device, RgbImage map)
       map_(std::move(map)),
       sampler_(map_),
       unit_(sampler_.unit()),
-      hides_light_(sampler_.dimmest_octant() < least_seen) {
+      hides_light_(sampler_.dimmest_view() < least_seen) {
     const uint32_t limit = uint32_t(device_->max_texture_size());
     if (map_.width > limit || map_.height > limit)
         throw Error(LB_ERROR_LIMIT, text("a map of ", map_.width, " x ", map_.height, " exceeds the device's textures of ", limit));
@@ -39,7 +39,7 @@ Light::Light(gl::DevicePtr device, RgbImage map)
 }
 
 const std::vector<Lamp>& Light::lamps() const {
-    if (!lamps_) lamps_ = lightband::lamps(map_);
+    if (!lamps_) lamps_ = lightband::lamps(map_, unit_);
     return *lamps_;
 }
 

@@ -102,7 +102,8 @@ double Frame::probed_error(const Job& job, const std::vector<Audit::Pixel>& prob
         const double told = std::pow(probe[k].spread / scale, 2);
         if (job.audited > 0) {
             const Audit::Pixel& seen = job.audit.pixels[k];
-            sum.add(job.audit.square(seen, probe[k].mean, scale_of(seen, forecast.mean_radiance), forecast.probe_samples) + hidden, told);
+            const double square = job.audit.square(seen, probe[k].mean, scale_of(seen, forecast.mean_radiance), forecast.probe_samples);
+            sum.add(square + (seen.biased ? hidden : 0), told);
         } else {
             sum.add_believed(told);
         }

@@ -371,8 +371,9 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
         return true;
     }
     choose_witnesses(estimate);
-    // No user's scale is given up.
-    const bool gives_up = interpolates_ && round_ >= most_refinements && !(settings_.bandwidth_scale() > 0);
+    // No user's scale is given up, nor is interpolation for more pixels than there is time for.
+    const bool gives_up = interpolates_ && round_ >= most_refinements && estimate.interpolation > share_ * goal() &&
+                          !(settings_.bandwidth_scale() > 0) && !(settings_.time_budget() > 0);
     if (gives_up) interpolates_ = false;
     const double goal = this->goal(), share = share_of_interpolation(), shading_allowed = noise_allowed();
     // While noise is large, a few bright samples make witnesses that see ghosts; and levels never coarsen again. What they may have seen

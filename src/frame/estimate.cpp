@@ -45,7 +45,7 @@ struct Audited {
     double scale;
     bool overtaken;       // by its own samples: its spreads are believed
     double deviation;     // of what was drawn there: not squared
-    double own_part;      // its samples, in parts of the audit's; 0: it errs in another way
+    double own_part;      // its samples in one frame, in parts of the audit's: frames share their cuts; 0: the audit has no bias
     double drawn;         // what was drawn there
     double interpolated;  // what interpolation would show, at a witness
 
@@ -63,7 +63,7 @@ std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit,
         const double shown = luminance_at(pixels, i), drawn = audit.square(seen, shown, known, samples);
         const bool witness = is_witness(pixels.decision[i]);
         result.push_back({i, scale, !audit.tells_of(seen, samples), (shown - double(seen.mean)) / known,
-                          seen.biased ? samples / audit.samples : 0, drawn,
+                          seen.biased ? double(pixels.sample_count[i]) / audit.samples : 0, drawn,
                           witness ? audit.square_of_other(seen, shown + pixels.spread[4 * i + 1], known, drawn, samples) : 0});
     }
     return result;
@@ -119,7 +119,7 @@ void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, do
             square += part * (pixel.interpolated - square);
             told += part * (per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth) - told);
         }
-        pixel.add_to(&sum, square + hidden, told);
+        pixel.add_to(&sum, square + (pixel.own_part > 0 ? hidden : 0), told);
     }
     const AuditSum::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
     estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise);

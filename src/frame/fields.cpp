@@ -34,10 +34,18 @@ std::vector<float> alpha_of(const std::vector<float>& rgba) {
     return alpha;
 }
 
-// From what shaders count radiance in, or its square, to the map's own units. Eq. 9 as printed bounds a mirror's variance so loosely that
-// under the brightest maps the bound is beyond a float's range: then it is the largest float.
+// From what shaders count radiance in, or its square, to the map's own units.
 std::vector<float> scaled(std::vector<float> values, double unit) {
-    for (float& value : values) value = float(std::min(value * unit, double(std::numeric_limits<float>::max())));
+    for (float& value : values) value = float(value * unit);
+    return values;
+}
+
+// Eq. 9 as printed bounds a mirror's variance so loosely that the bound may be beyond a float's range: then it is the largest float, in a
+// shader's units and in the map's.
+std::vector<float> scaled_bound(std::vector<float> values, double unit) {
+    constexpr float most = std::numeric_limits<float>::max();
+    for (float& value : values)
+        if (std::isfinite(value)) value = value == most ? most : float(std::min(value * unit, double(most)));
     return values;
 }
 
@@ -200,7 +208,7 @@ HostArray Frame::predicted(const std::string& name, const std::vector<uint8_t>& 
     if (name == "bandwidth_image") return scalar(bandwidth(GL_BLUE), "1/pixel");
     if (name == "curvature") return scalar(alpha_of(read_floats(prediction.bandwidth, GL_RGBA, pixels(), 4)), "1/metre");
     if (name == "variance_predicted")
-        return scalar(scaled(read_floats(prediction.prediction, GL_RED, pixels(), 1), result().squared_unit()), "radiance^2");
+        return scalar(scaled_bound(read_floats(prediction.prediction, GL_RED, pixels(), 1), result().squared_unit()), "radiance^2");
     if (name == "bandwidth_reflected") {
         std::vector<float> reflected(pixels());
         if (prediction.mirrors) reflected = read_floats(prediction.reflected, GL_RED, pixels(), 1);

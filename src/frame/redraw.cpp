@@ -98,7 +98,7 @@ Redraw redraw(const RoundPixels& pixels, const std::vector<float>& areas, double
         // that it may have is counted by its bin.
         if (part > 0 && budget[bin] < worth && budget[bin] < budget.back()) bin = 0;
         result.bins[pixel.at] = uint8_t(bin);
-        planned += part > 0 ? std::max(double(budget[bin]), pixel.samples) : pixel.samples;
+        planned += part > 0 && budget[bin] >= worth ? double(budget[bin]) : pixel.samples;
         ++groups[{bin, uint32_t(pixel.samples)}];
     }
     for (const auto& [key, count] : groups) result.drawn.push_back({key.first, key.second, count});

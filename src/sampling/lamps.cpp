@@ -12,14 +12,14 @@ namespace {
 // A map's texels with their light taken off as lamps are found.
 class Texels {
 public:
-    explicit Texels(const RgbImage& map) : map_(map), flux_(size_t(map.width) * map.height) {
+    Texels(const RgbImage& map, double unit) : map_(map), flux_(size_t(map.width) * map.height) {
         for (uint32_t x = 0; x < map.width; ++x) azimuths_.push_back(direction_of(Vec2((x + 0.5) / map.width, 0.5)));
         for (uint32_t y = 0; y < map.height; ++y) {
             latitudes_.push_back(pi * (0.5 - (y + 0.5) / map.height));
             for (uint32_t x = 0; x < map.width; ++x) {
                 const float* rgb = map.texel(x, y);
                 // Radiance times solid angle, up to a factor.
-                at(x, y) = float(luminance(Vec3(rgb[0], rgb[1], rgb[2])) * std::cos(latitudes_[y]));
+                at(x, y) = float(luminance(Vec3(rgb[0], rgb[1], rgb[2])) / unit * std::cos(latitudes_[y]));
                 all_ += double(at(x, y));
             }
         }
@@ -64,10 +64,10 @@ private:
 
 }  // namespace
 
-std::vector<Lamp> lamps(const RgbImage& map) {
+std::vector<Lamp> lamps(const RgbImage& map, double unit) {
     // A disc's radius over the root mean square distance from its middle; and a texel, beyond whose half the next one's share begins.
     const double disc = std::sqrt(2.0), texel = pi / map.height;
-    Texels texels(map);
+    Texels texels(map, unit);
     std::vector<Lamp> found;
     std::vector<double> fluxes;
     double rest = texels.all();

@@ -21,7 +21,7 @@ struct Lamp {
     double size;     // half the angle that it fills, lookups between texels included; radians
 };
 
-// Brightest first.
-std::vector<Lamp> lamps(const RgbImage& map);
+// Brightest first. unit: of radiance, near the map's mean (MapSampler::unit).
+std::vector<Lamp> lamps(const RgbImage& map, double unit);
 
 }  // namespace lightband

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sampling/sequence.h"
 #include "scene/environment.h"
@@ -46,7 +47,14 @@ MapSampler::MapSampler(const RgbImage& map) : width_(map.width), height_(map.hei
 
 double MapSampler::unit() const { return std::exp2(std::floor(std::log2(total() / (4 * pi)))); }
 
-double MapSampler::dimmest_octant() const {
+double MapSampler::dimmest_view() const {
+    bool black = false;
+    const double octant = least_density(4, 2, &black);
+    return black ? least_density(32, 16, &black) : octant;
+}
+
+// The least mean density, over that of the sphere, of so many cells that any light comes from; black: whether there are others.
+double MapSampler::least_density(uint32_t columns, uint32_t rows, bool* black) const {
     // The running sum along a row up to a part of its width, within a texel in proportion.
     const auto sum_to = [this](uint32_t y, double part) {
         const double at = part * width_;
@@ -55,18 +63,25 @@ double MapSampler::dimmest_octant() const {
         const double before = whole > 0 ? row[whole - 1] : 0;
         return whole < width_ ? before + (at - whole) * (row[whole] - before) : before;
     };
-    double dimmest = rows_.back();
-    for (const double half : {0.0, 0.5})
-        for (int quarter = 0; quarter < 4; ++quarter) {
-            double octant = 0;
-            for (uint32_t y = 0; y < height_; ++y) {
-                // Rows above the horizon, below it, and of a map with an odd number of them the middle one by halves.
-                const double top = std::clamp(half * height_ - y, 0.0, 1.0), bottom = std::clamp((half + 0.5) * height_ - y, 0.0, 1.0);
-                if (bottom > top) octant += (bottom - top) * (sum_to(y, 0.25 * (quarter + 1)) - sum_to(y, 0.25 * quarter));
+    double least = std::numeric_limits<double>::infinity();
+    for (uint32_t j = 0; j < rows; ++j) {
+        const double low = double(j) / rows * height_, high = (j + 1.0) / rows * height_;
+        const double solid_angle = 2 * pi / columns * (std::cos(pi * j / rows) - std::cos(pi * (j + 1.0) / rows));
+        for (uint32_t i = 0; i < columns; ++i) {
+            double light = 0;
+            for (uint32_t y = uint32_t(low); y < height_ && y < high; ++y) {
+                // The part of the row that lies in the cell: a texel's light is even over it.
+                const double top = std::cos(pi * std::max(low, double(y)) / height_), bottom = std::cos(pi * std::min(high, y + 1.0) / height_);
+                const double whole = std::cos(pi * y / height_) - std::cos(pi * (y + 1.0) / height_);
+                light += (top - bottom) / whole * (sum_to(y, (i + 1.0) / columns) - sum_to(y, double(i) / columns));
             }
-            if (octant > 0) dimmest = std::min(dimmest, octant);
+            if (light > 0)
+                least = std::min(least, light / solid_angle);
+            else
+                *black = true;
         }
-    return 8 * dimmest / rows_.back();
+    }
+    return least * 4 * pi / rows_.back();
 }
 
 double MapSampler::solid_angle(uint32_t row) const {

@@ -27,13 +27,15 @@ public:
     // Integral over the sphere of the (mean of RGB) radiance that the density is proportional to.
     double total() const { return rows_.back(); }
     // What shaders count radiance in, whatever a scene is measured in: the power of two at or below the mean of that radiance (1 where the
-    // map is black). So no product of radiances leaves the range of float, and no digit of one changes.
+    // map is black). So products of radiances near the mean stay far within the range of float, and no digit of them changes.
     double unit() const;
-    // The mean density, over that of the whole sphere, in the dimmest of its octants that any light comes from. Whatever half of the
-    // sphere a surface faces, an octant lies in it.
-    double dimmest_octant() const;
+    // The least that a surface may face, over the mean of the whole sphere: the mean density of the dimmest of its octants, of which one
+    // lies in every hemisphere. Where an octant is black, a hemisphere may hold as little as a sliver of others: then that of the dimmest
+    // cell of some ten degrees that is not.
+    double dimmest_view() const;
 
 private:
+    double least_density(uint32_t columns, uint32_t rows, bool* black) const;
     double solid_angle(uint32_t row) const;  // of one texel of a row
 
     uint32_t width_, height_;

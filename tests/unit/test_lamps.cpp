@@ -31,7 +31,7 @@ const Vec3 right = glm::normalize(Vec3(1, 0.5, 0.2)), left = glm::normalize(Vec3
 // Of discs of 0.01, in texels of 0.003: a texel off in direction, and in size, that of the texel which lookups add included.
 void suns_are_found(void**) {
     const double texel = pi / 1024;
-    const std::vector<Lamp> found = lamps(sky(1024, 1, {{right, 0.01, 2e5}, {left, 0.01, 1e5}}));
+    const std::vector<Lamp> found = lamps(sky(1024, 1, {{right, 0.01, 2e5}, {left, 0.01, 1e5}}), 1);
     assert_int_equal(found.size(), 2);
     for (size_t i = 0; i < 2; ++i) {
         // The brightest texel of a disc is any of it.
@@ -44,18 +44,18 @@ void suns_are_found(void**) {
 void what_is_not_bright_beside_the_sky_is_none(void**) {
     for (const double share : {0.4, 0.6}) {
         const double radiance = share * 4 * pi / (pi * 0.01 * 0.01);
-        assert_int_equal(lamps(sky(2048, 1, {{right, 0.01, radiance}})).size(), share > 0.5 ? 1 : 0);
+        assert_int_equal(lamps(sky(2048, 1, {{right, 0.01, radiance}}), 1).size(), share > 0.5 ? 1 : 0);
     }
 }
 
-void wide_lights_are_none(void**) { assert_int_equal(lamps(sky(256, 1e-3, {{right, 0.3, 1}})).size(), 0); }
+void wide_lights_are_none(void**) { assert_int_equal(lamps(sky(256, 1e-3, {{right, 0.3, 1}}), 1).size(), 0); }
 
 void a_texel_in_the_dark_is_one(void**) {
     RgbImage map = sky(1, 0, {});
-    assert_int_equal(lamps(map).size(), 0);
+    assert_int_equal(lamps(map, 1).size(), 0);
     map = sky(16, 0, {});
     map.rgb[3 * (13 * 32 + 7) + 1] = 1e-30f;
-    const std::vector<Lamp> found = lamps(map);
+    const std::vector<Lamp> found = lamps(map, 1);
     assert_int_equal(found.size(), 1);
     check_close("distance", glm::length(found[0].direction - direction_of(Vec2(7.5 / 32, 13.5 / 16))), 0, 1e-12);
     check_close("size", found[0].size, pi / 16, 1e-12);

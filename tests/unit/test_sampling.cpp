@@ -421,27 +421,41 @@ void radiance_is_counted_in_a_power_of_two(void**) {
     }
 }
 
-// Against the density, looked up at the middles of cells that cut every texel and the octants' edges evenly.
-void the_dimmest_octant_is_that_of_the_density(void**) {
+// The least mean density of so many cells that are not black, over that of the sphere, looked up at the middles of parts that cut texels and
+// cells evenly.
+double least_of_cells(const RgbImage& map, const MapSampler& sampler, uint32_t columns, uint32_t rows) {
+    const uint32_t across = columns * map.width, down = rows * map.height;
+    std::vector<double> density(size_t(columns) * rows), solid_angles(density.size());
+    for (uint32_t j = 0; j < down; ++j)
+        for (uint32_t i = 0; i < across; ++i) {
+            const double solid_angle = 2 * pi / across * (std::cos(pi * j / down) - std::cos(pi * (j + 1.0) / down));
+            const size_t cell = size_t(j / map.height) * columns + i / map.width;
+            density[cell] += solid_angle * sampler.pdf(direction_of(Vec2((i + 0.5) / across, (j + 0.5) / down)));
+            solid_angles[cell] += solid_angle;
+        }
+    double least = 1e300;
+    for (size_t cell = 0; cell < density.size(); ++cell)
+        if (density[cell] > 0) least = std::min(least, density[cell] / solid_angles[cell]);
+    return 4 * pi * least;
+}
+
+void the_dimmest_view_is_that_of_the_density(void**) {
     const std::pair<uint32_t, uint32_t> sizes[] = {{1, 1}, {2, 1}, {6, 3}, {5, 5}, {64, 32}};
     for (const auto& [width, height] : sizes) {
         Random random(width);
         RgbImage map{width, height, {}, false};
         for (size_t i = 0; i < size_t(width) * height * 3; ++i) map.rgb.push_back(float(random.log_uniform(1e-6, 1)));
         const MapSampler sampler(map);
-        const uint32_t columns = 8 * width, rows = 8 * height;
-        double octants[8] = {};
-        for (uint32_t j = 0; j < rows; ++j)
-            for (uint32_t i = 0; i < columns; ++i) {
-                const double solid_angle = 2 * pi / columns * (std::cos(pi * j / rows) - std::cos(pi * (j + 1.0) / rows));
-                const Vec3 d = direction_of(Vec2((i + 0.5) / columns, (j + 0.5) / rows));
-                octants[4 * (j >= rows / 2) + i / (2 * width)] += solid_angle * sampler.pdf(d);
-            }
-        check_close("dimmest octant", sampler.dimmest_octant() / (8 * *std::min_element(octants, octants + 8)), 1, 1e-9);
+        check_close("dimmest octant", sampler.dimmest_view() / least_of_cells(map, sampler, 4, 2), 1, 1e-9);
     }
-    RgbImage lit{64, 32, std::vector<float>(64 * 32 * 3), false};
-    lit.rgb[3 * (4 * 64 + 8)] = 1;
-    check_close("the one that is lit", MapSampler(lit).dimmest_octant(), 8, 1e-9);
+    // Black ground, an even sky that ends a row above it, and a lamp at the zenith, a quarter of it in each octant that is lit.
+    RgbImage zenith{64, 32, std::vector<float>(64 * 32 * 3), false};
+    for (size_t i = 0; i < 64 * 15 * 3; ++i) zenith.rgb[i] = i < 64 * 3 ? 1e8f : 1.0f;
+    const MapSampler sampler(zenith);
+    const double view = sampler.dimmest_view();
+    check_close("dimmest cell", view / least_of_cells(zenith, sampler, 32, 16), 1, 1e-9);
+    // The lamp is 1 - cos(pi / 32) = 0.0048 of a hemisphere, and as much again of what lies beside it: the mean is 2.4e5 or a little more.
+    assert_true(view < 1 / 2.4e5);
 }
 
 Vec3 direction_of(const MapPoint& point) { return {point.direction[0], point.direction[1], point.direction[2]}; }
@@ -537,7 +551,7 @@ int main() {
         cmocka_unit_test(pilots_carry_the_albedo),
         cmocka_unit_test(pilots_stand_for_their_solid_angles),
         cmocka_unit_test(radiance_is_counted_in_a_power_of_two),
-        cmocka_unit_test(the_dimmest_octant_is_that_of_the_density),
+        cmocka_unit_test(the_dimmest_view_is_that_of_the_density),
         cmocka_unit_test(clusters_hold_all_points_and_equal_light),
         cmocka_unit_test(pairs_of_a_cluster_lie_in_both_halves),
         cmocka_unit_test(importance_adds_up_to_the_albedo),
