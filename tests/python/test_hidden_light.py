@@ -3,15 +3,10 @@
 import numpy as np
 import pytest
 
-import lightband
-from test_method import LUMINANCE
+from test_error_control import luminance
 
 MATERIALS = {"Lambert": lambda context: context.lambert(0.7), "rough": lambda context: context.ggx(0.3, (1, 1, 1)),
              "glossy": lambda context: context.ggx(0.1, (1, 1, 1))}
-
-
-def luminance(frame):
-    return frame.color[..., :3].astype(np.float64) @ LUMINANCE
 
 
 def rendered(context, brdf, brightness, height, **settings):
