@@ -94,12 +94,13 @@ bool has_sound_parents(ivec2 at, int level, float pixel_level) {
 
 #if defined(PREDICTED)
 
-// Log2 of the share of samples; a black pixel deserves least. Least error: the sum over pixels of area * variance / N is least for N
+// Log2 of the share of samples. That the prediction saw no light is no proof that there is none (a table with black parts): such a pixel
+// counts as one of relative variance 1. Least error: the sum over pixels of area * variance / N is least for N
 // proportional to sqrt(area * variance), the area being the number of pixels for which the pixel stands. Constant variance (section
 // 2.4): N proportional to the variance. Footprints leave little of a variance, the less the larger it is: of a cut, error was least where
 // pixels have alike (docs/decisions/0009).
 int share(float variance, float area) {
-    if (variance <= 0.0) return 0;
+    if (variance <= 0.0) variance = 1.0;
 #if defined(ALLOCATION_CONSTANT_VARIANCE)
     float octave = log2(variance);
 #else

@@ -9,6 +9,9 @@ layout(std140, binding = 0) uniform Trunks { vec4 trunk[2 * (TRUNK_PARTS + COARS
 // A part is halved further where, by the lobe at its centre, it alone brings more of what the pixel may expect than so many average
 // parts; among few parts, more than a quarter of all that is expected.
 const float surprising = 16.0, surprising_share = 0.25;
+// Importance is tabulated coarsely: where the table holds 0 at a part's centre, the part may still reach into a bright piece of the lobe.
+// So no part counts less than this times the mean importance over the hemisphere, and with its size every cut becomes fine everywhere.
+const float least_importance = 1.0 / 64.0;
 // Near the horizon, by so much sine or its own width, a part's centre says little: half of the part may lie below, and measured tables
 // vary from cell to cell (a cell of a MERL table is a degree or two wide). There it may bring what the lobe's greatest value would.
 const float grazing = 0.03;
@@ -18,6 +21,7 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
     // Halved d times, a part errs 2^-d times as much; errors are least together where d follows the square root of what they are.
     float wishes[TRUNK_PARTS], sum = 0.0, expected = 0.0;
     uint seen[TRUNK_PARTS], seen_count = 0u;
+    float defensive = least_importance * importance_albedo(pixel.lobe.view) / (2.0 * pi);
     bool coarse = size < float(COARSE_TRUNK_PARTS);
     int first = coarse ? TRUNK_PARTS : 0, last = first + (coarse ? COARSE_TRUNK_PARTS : TRUNK_PARTS);
     for (int k = first; k < last; ++k) {
@@ -25,7 +29,7 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
         vec3 wi = part.xyz * pixel.frame;
         if (may_be_above(wi, part.w)) {
             vec4 flux = trunk[2 * k + 1];
-            float importance = lobe_importance(pixel.lobe.view, middle_above(wi, part.w)), wish = sqrt(flux.w * importance);
+            float importance = lobe_importance(pixel.lobe.view, middle_above(wi, part.w)), wish = sqrt(flux.w * (importance + defensive));
             wishes[seen_count] = wish;
             seen[seen_count++] = uint(k);
             sum += wish;

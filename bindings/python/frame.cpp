@@ -146,7 +146,7 @@ py::object stats(const Frame& self) {
                             stats.samples, stats.saturated_pixels, stats.bent_normals, stats.device_bytes,
                             stats.milliseconds, stats.bandwidth_milliseconds, stats.shading_milliseconds, stats.error,
                             stats.noise_error, stats.interpolation_error, stats.capped_pixels, stats.rounds,
-                            stats.audited_pixels, stats.bias_error);
+                            stats.audited_pixels, stats.bias_error, stats.sampler_replaced != 0);
 }
 
 py::str plan(const Frame& self) {

@@ -43,9 +43,13 @@ struct Audit {
     static Effort effort(const Settings& settings, double covered_pixels, double light);
     // Samples that an audit draws for each of a pixel's own.
     static constexpr double gain = 4;
-    // Where probe and audit disagree most, of a part of the pixels, the audit is repeated by a sampler without bias: light that a cut
-    // misses for long shows there first. So many samples err less than a probe's.
-    static constexpr double doubted_part = 0.1;
+    // Of an audit by a cut, every so many-th pixel is rechecked by a sampler without bias (src/frame/recheck), of few all; and besides this
+    // part of them, where pilot pass and audit differ most. So many samples err less than a pilot pass.
+    static constexpr size_t recheck_stride = 4, fewest_rechecked = 64;
+    static constexpr double doubted_part = 0.05;
+    // Of the frame's error, what it may err by to one side unseen: a half adds an eighth. Directions drawn from the map for a frame's
+    // samples without bias leave a quarter of a percent themselves (docs/decisions/0006).
+    static constexpr double harmless_part = 0.5, least_difference = 0.003;
     static uint32_t unbiased_samples(double probe);
     // Whether what a cut saw of a pixel is refuted by what was seen there without bias. A cut does not invent light: that few samples
     // of another kind have not met a lamp proves nothing.

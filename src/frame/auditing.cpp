@@ -63,13 +63,24 @@ void Frame::audit(Job* job, Forecast* forecast) const {
         job->audited = effort.part;
         look_closely(job, drawn, effort.samples);
     }
-    if (effort.probe == 0) return;
-    const std::vector<Audit::Pixel> probe = shade_alike(*job, drawn, settings, effort.probe, settings.seed());
-    next.plan.finished("probe", text(drawn.size(), " pixels, to know how much they vary"), 0, drawn.size() * effort.probe, "samples");
-    if (settings.sampler() == Sampler::cut) doubt_audit(job, probe, effort.probe, forecast->mean_radiance);
-    if (settings.target_error() <= 0) return;  // nothing is planned from it
-    forecast->probe_samples = effort.probe;
-    forecast->probed_error = probed_error(*job, probe, *forecast);
+    if (effort.probe > 0) draw_pilots(job, drawn, effort.probe);
+    const bool cut = settings.sampler() == Sampler::cut && !drawn.empty();
+    if (cut && recheck(job, forecast->mean_radiance).contradicts(harmless_difference(*job, forecast->mean_radiance)))
+        replace_sampler(job, forecast->mean_radiance);
+    plan_from_pilots(*job, forecast);
+}
+
+// Pixels with about as many samples as will be planned.
+void Frame::draw_pilots(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const {
+    job->pilots = shade_alike(*job, drawn, job->settings, samples, settings.seed());
+    job->pilot_samples = samples;
+    job->result->plan.finished("probe", text(drawn.size(), " pixels, to know how much they vary"), 0, drawn.size() * samples, "samples");
+}
+
+void Frame::plan_from_pilots(const Job& job, Forecast* forecast) const {
+    if (job.pilots.empty() || settings.target_error() <= 0) return;
+    forecast->probe_samples = job.pilot_samples;
+    forecast->probed_error = probed_error(job, job.pilots, *forecast);
 }
 
 // By what the pilots' foresight of interpolation is to be multiplied, squared.
@@ -112,8 +123,7 @@ double Frame::probed_error(const Job& job, const std::vector<Audit::Pixel>& prob
 }
 
 void Frame::look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const {
-    Settings closer = settings;
-    if (settings.sampler() == Sampler::filtered) closer.set_choice("sampler", "combined");
+    const Settings closer = settings.sampler() == Sampler::filtered ? with_sampler("combined") : settings;
     std::vector<Audit::Pixel> seen = shade_alike(*job, drawn, closer, samples, audit_seed);
     // What was seen without bias stays.
     for (size_t k = 0; k < job->audit.pixels.size(); ++k)
@@ -124,38 +134,114 @@ void Frame::look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t 
                                drawn.size() * samples, "samples");
 }
 
-// Looks again, without bias, where a probe and the audit disagree most.
-void Frame::doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32_t probe_samples, double mean_radiance) const {
-    std::vector<Audit::Pixel>& audited = job->audit.pixels;
-    std::vector<double> disagreement;
-    for (size_t k = 0; k < audited.size(); ++k) {
-        const double scale = scale_of(audited[k], mean_radiance);
-        disagreement.push_back(scale > 0 ? std::abs(probe[k].mean - audited[k].mean) / scale : 0);
+// Validation pixels to be shaded without bias: a part of them chosen by chance, and those where pilot pass and validation differ most,
+// which are the likeliest to miss light. by_chance: whether each is one of the former.
+std::vector<size_t> Frame::choose_rechecked(const Job& job, double mean_radiance, std::vector<bool>* by_chance) const {
+    const std::vector<Audit::Pixel>& validated = job.audit.pixels;
+    const size_t count = validated.size(), stride = count <= Audit::fewest_rechecked ? 1 : Audit::recheck_stride;
+    std::vector<double> difference(count);
+    std::vector<size_t> by_difference(count);
+    for (size_t k = 0; k < count; ++k) {
+        const double scale = scale_of(validated[k], mean_radiance);
+        difference[k] = scale > 0 && !job.pilots.empty() ? std::abs(job.pilots[k].mean - validated[k].mean) / scale : 0;
+        by_difference[k] = k;
     }
-    std::vector<size_t> order(audited.size());
-    std::iota(order.begin(), order.end(), size_t(0));
-    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return disagreement[a] > disagreement[b]; });
-    order.resize(size_t(std::ceil(Audit::doubted_part * double(order.size()))));
-    std::sort(order.begin(), order.end());
-    std::vector<uint32_t> doubted;
-    for (const size_t k : order) doubted.push_back(audited[k].at);
-    Settings unbiased = settings;
-    unbiased.set_choice("sampler", "combined");
-    const uint32_t samples = Audit::unbiased_samples(probe_samples);
-    const std::vector<Audit::Pixel> seen = shade_alike(*job, doubted, unbiased, samples, audit_seed);
-    for (size_t k = 0; k < order.size(); ++k)
-        if (Audit::refutes(seen[k], audited[order[k]])) audited[order[k]] = seen[k];
-    job->result->plan.finished("doubt", text(doubted.size(), " audited pixels without bias"), 0, doubted.size() * samples, "samples");
+    std::sort(by_difference.begin(), by_difference.end(), [&](size_t a, size_t b) { return difference[a] > difference[b]; });
+    std::vector<bool> chosen(count);
+    for (size_t i = 0; i < size_t(std::ceil(Audit::doubted_part * double(count))); ++i) chosen[by_difference[i]] = true;
+    std::vector<size_t> order;
+    for (size_t k = 0; k < count; ++k) {
+        const bool regular = k % stride == 0;  // pixels lie in the picture's order: so these are spread over it
+        if (!regular && !chosen[k]) continue;
+        order.push_back(k);
+        by_chance->push_back(regular);
+    }
+    return order;
+}
+
+// Holds the cut's pixels against samples without bias; where these see more light, they take the place of the validation.
+Recheck Frame::recheck(Job* job, double mean_radiance) const {
+    std::vector<Audit::Pixel>& validated = job->audit.pixels;
+    std::vector<bool> by_chance;
+    const std::vector<size_t> order = choose_rechecked(*job, mean_radiance, &by_chance);
+    std::vector<uint32_t> pixels;
+    for (const size_t k : order) pixels.push_back(validated[k].at);
+    job->unbiased_samples = Audit::unbiased_samples(job->audit.samples / Audit::gain);
+    const std::vector<Audit::Pixel> seen = shade_alike(*job, pixels, with_sampler("combined"), job->unbiased_samples, audit_seed);
+    std::vector<RecheckedPixel> rechecked;
+    for (size_t i = 0; i < order.size(); ++i) {
+        Audit::Pixel& cut = validated[order[i]];
+        const double scale = 0.5 * (scale_of(seen[i], mean_radiance) + scale_of(cut, mean_radiance));
+        const double few = job->pilots.empty() ? double(cut.mean) : double(job->pilots[order[i]].mean);
+        if (by_chance[i] && cut.biased && scale > 0)
+            rechecked.push_back({few / scale, cut.mean / scale, seen[i].mean / scale, seen[i].spread / scale, seen[i].deviation / scale});
+        if (Audit::refutes(seen[i], cut)) cut = seen[i];
+    }
+    const double few_samples = job->pilots.empty() ? job->audit.samples / Audit::gain : job->pilot_samples;
+    const Recheck result = lightband::recheck(rechecked, {few_samples, double(job->audit.samples), double(job->unbiased_samples)});
+    job->result->plan.finished("recheck", text(pixels.size(), " validation pixels without bias; they differ by ", result.difference,
+                                               " in the mean, standard error ", result.difference_error),
+                               0, pixels.size() * job->unbiased_samples, "samples");
+    return result;
+}
+
+// What a frame may err by to one side before its error shows it.
+double Frame::harmless_difference(const Job& job, double mean_radiance) const {
+    double error = settings.target_error();
+    if (!(error > 0)) {
+        double squares = 0;
+        for (const Audit::Pixel& pixel : job.pilots) {
+            const double scale = scale_of(pixel, mean_radiance);
+            if (scale > 0) squares += std::pow(std::min(pixel.spread / scale, 1.0), 2);
+        }
+        error = std::sqrt(squares / std::max(double(job.pilots.size()), 1.0));
+    }
+    return std::max(Audit::harmless_part * error, Audit::least_difference);
+}
+
+// The cut does not converge: the frame is drawn by the sampler without bias that errs less, and held against other samples without bias.
+void Frame::replace_sampler(Job* job, double mean_radiance) const {
+    std::vector<uint32_t> drawn;
+    for (const Audit::Pixel& pixel : job->audit.pixels) drawn.push_back(pixel.at);
+    const uint32_t samples = std::max(job->pilot_samples, uint32_t(job->audit.samples / Audit::gain));
+    job->audit.pixels = shade_alike(*job, drawn, with_sampler("combined"), job->unbiased_samples, audit_seed);
+    std::vector<double> errors;
+    std::vector<std::vector<Audit::Pixel>> pilots;
+    const char* const candidates[] = {"combined", "brdf"};
+    for (const char* sampler : candidates) {
+        pilots.push_back(shade_alike(*job, drawn, with_sampler(sampler), samples, settings.seed()));
+        errors.push_back(0);
+        for (size_t k = 0; k < drawn.size(); ++k) {
+            const double scale = scale_of(job->audit.pixels[k], mean_radiance);
+            if (scale > 0) errors.back() += job->audit.square(job->audit.pixels[k], pilots.back()[k].mean, scale, samples);
+        }
+    }
+    const size_t better = errors[1] < errors[0] ? 1 : 0;
+    job->settings.set_choice("sampler", candidates[better]);
+    job->pilots = std::move(pilots[better]);
+    job->pilot_samples = samples;
+    job->result->stats.sampler_replaced = 1;
+    const std::string reason = text("samples without bias contradict the light cut: sampler ", candidates[better], " takes its place");
+    job->result->plan.finished("replace", reason, 0, drawn.size() * (job->unbiased_samples + 2 * samples), "samples");
+    device_->log(reason);
+}
+
+Settings Frame::with_sampler(const char* sampler) const {
+    Settings other = settings;
+    other.set_choice("sampler", sampler);
+    return other;
 }
 
 // Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost. Of a frame that
 // interpolates over directions most pixels err by interpolation, of which an audit of as many samples tells enough.
 bool Frame::audit_again(Job* job) const {
     const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
-    if (settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0) return false;
+    if (job->settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0) return false;
     const bool over_directions = job->result->prediction->mirrors.has_value();
     if (over_directions ? job->audit.samples >= planned : job->audit.knows_better(planned)) return false;
     look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
+    if (recheck(job, job->result->mean_radiance).contradicts(harmless_difference(*job, job->result->mean_radiance)))
+        replace_sampler(job, job->result->mean_radiance);
     job->result->shading.clear(device_->gl());
     return true;
 }

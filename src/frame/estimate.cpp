@@ -108,6 +108,24 @@ double interpolated_part(const RoundPixels& pixels, const std::vector<Audited>& 
     return witnesses > 0 ? std::min(interpolated / covered / (witnesses / double(audited.size())), 1.0) : 0;
 }
 
+// Unbiased samples of all pixels share the directions that were drawn from the map, and err alike by about so much (sampling/map_sampler,
+// docs/decisions/0006).
+constexpr double error_of_directions = 0.002;
+
+// What all pixels may err by alike without that unbiased samples show it: the squared standard error of the mean deviation from them, and
+// what they err by alike themselves.
+double below_notice(const std::vector<Audited>& audited) {
+    double count = 0, sum = 0, squares = 0;
+    for (const Audited& pixel : audited) {
+        if (pixel.own_part > 0) return 0;
+        ++count;
+        sum += pixel.deviation;
+        squares += pixel.deviation * pixel.deviation;
+    }
+    if (count < 2) return 0;
+    return std::max(squares - sum * sum / count, 0.0) / (count - 1) / count + error_of_directions * error_of_directions;
+}
+
 // Audited witnesses stand for the pixels that might be interpolated, whether they are or not.
 void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, double truth, ErrorEstimate* estimate) {
     AuditSum sum(part_of(pixels, audited));
@@ -122,7 +140,7 @@ void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, do
         pixel.add_to(&sum, square + (pixel.own_part > 0 ? hidden : 0), told);
     }
     const AuditSum::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
-    estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise);
+    estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise) + below_notice(audited);
     estimate->bias_deviation = bias.deviation;
 }
 

@@ -71,7 +71,8 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     next.plan.finished("covered", "list of the pixels that see a mesh", job.covered.entries.bytes(), pixels(), "pixels");
     Forecast forecast = predict(&job);
     audit(&job, &forecast);
-    rounds(&job, forecast);
+    // Rounds end at once where they find that the sampler has to be replaced, and are planned anew for the other.
+    while (!rounds(&job, forecast)) plan_from_pilots(job, &forecast);
     if (settings.accumulate() > 1) accumulate(&job);
     if (settings.background()) {
         passes::background(*device_, scene, width_, height_, next.gbuffer, next.shading);
@@ -182,7 +183,7 @@ void Frame::choose_levels(Job* job, const Control& control, const Forecast& fore
     const auto [least, most] = std::minmax_element(scales.of.begin(), scales.of.end());
     const std::string scaled = text(", bandwidth times ", *least, " to ", *most);
     if (next.prediction->pyramids) {
-        passes::pyramids(*device_, forecast, scales, settings, job->covered, width_, height_, *next.prediction,
+        passes::pyramids(*device_, forecast, scales, job->settings, job->covered, width_, height_, *next.prediction,
                          *next.prediction->pyramids);
         job->tiles = next.tiles();
         const char* made = next.prediction->pyramids->variances ? "least level and largest variance" : "least level";
@@ -217,7 +218,8 @@ void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
                        next.shading.decision.bytes(), job->covered.all.count, "pixels");
 }
 
-void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
+// False: the sampler was replaced, and what is planned is void.
+bool Frame::list(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     const bool first = next.stats.rounds == 1;
     if (!first) {
@@ -231,10 +233,14 @@ void Frame::list(Job* job, Control* control, const Forecast& forecast) const {
     const Histogram fresh = job->counts.fresh_bins();
     const Budget& budget = first ? control->plan(fresh, elapsed) : control->plan_further(job->redraw.drawn, fresh, elapsed);
     job->drawn = redrawing(job->redraw.drawn, fresh, budget);
-    if (first && audit_again(job)) decide(job, control, forecast);
+    if (first && audit_again(job)) {
+        if (next.stats.sampler_replaced != 0) return false;
+        decide(job, control, forecast);
+    }
     job->list = passes::shading_list(*device_, job->slot_of, job->counts, budget, job->covered, next.gbuffer,
                                      next.shading);
     next.plan.finished("list", "pixels to shade, longest first", job->list.entries.bytes(), job->covered.all.count, "pixels");
+    return true;
 }
 
 void Frame::shade(Job* job, const passes::Seeds& seeds) const {
@@ -243,7 +249,7 @@ void Frame::shade(Job* job, const passes::Seeds& seeds) const {
     const auto drawn = [&](uint64_t samples) {
         job->report(double(samples) / double(std::max<uint64_t>(list.total_samples, 1)));
     };
-    passes::shade(*device_, job->scene, job->slots, settings, seeds, list, next.gbuffer,
+    passes::shade(*device_, job->scene, job->slots, job->settings, seeds, list, next.gbuffer,
                   next.shading, drawn);
     next.plan.finished("shade", text(list.pixels, " pixels in ", job->slots.materials.size(), " materials"),
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
@@ -275,8 +281,11 @@ void Frame::measure(Job* job) const {
                        0, this->pixels(), "pixels");
 }
 
-void Frame::rounds(Job* job, const Forecast& forecast) {
+// False: see Frame::list.
+bool Frame::rounds(Job* job, const Forecast& forecast) {
     Result& next = *job->result;
+    next.stats.rounds = 0;
+    job->scales.clear();
     next.shading.clear(device_->gl());
     prepare_interpolation(job, forecast);
     const size_t tiles = job->settings.interpolation() != Interpolation::directions ? size_t(tiles_along(width_)) * tiles_along(height_)
@@ -292,7 +301,7 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
         job->part = (1 - job->done) * (one ? 1.0 / settings.accumulate() : 0.5);
         const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
         const size_t programs = device_->program_count();
-        list(job, &control, forecast);
+        if (!list(job, &control, forecast)) return false;
         if (job->drawn.pixels == 0 && next.stats.rounds > 1) {
             --next.stats.rounds;  // nothing is left that would be worth it
             break;
@@ -307,6 +316,7 @@ void Frame::rounds(Job* job, const Forecast& forecast) {
         job->done += job->part;
     } while (control.again(next.estimate, cost));
     pace_ = control.pace();
+    return true;
 }
 
 // Further frames of other seeds on the same levels; the mean of all.

@@ -12,6 +12,7 @@
 #include "frame/control.h"
 #include "frame/host_array.h"
 #include "frame/plan.h"
+#include "frame/recheck.h"
 #include "passes/shade.h"
 #include "passes/uniforms.h"
 #include "picture/settings.h"
@@ -56,17 +57,23 @@ private:
     std::vector<Audit::Pixel> shade_alike(const Job& job, const std::vector<uint32_t>& drawn, const Settings& own, uint32_t samples,
                                           uint32_t seed) const;
     void audit(Job* job, Forecast* forecast) const;
+    void draw_pilots(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const;
+    void plan_from_pilots(const Job& job, Forecast* forecast) const;
     double rehearsed(const Job& job, double mean_radiance) const;
     double probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const;
     void look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const;
-    void doubt_audit(Job* job, const std::vector<Audit::Pixel>& probe, uint32_t probe_samples, double mean_radiance) const;
+    std::vector<size_t> choose_rechecked(const Job& job, double mean_radiance, std::vector<bool>* by_chance) const;
+    Recheck recheck(Job* job, double mean_radiance) const;
+    double harmless_difference(const Job& job, double mean_radiance) const;
+    void replace_sampler(Job* job, double mean_radiance) const;
+    Settings with_sampler(const char* sampler) const;
     bool audit_again(Job* job) const;
-    void rounds(Job* job, const Forecast& forecast);
+    bool rounds(Job* job, const Forecast& forecast);
     void prepare_interpolation(Job* job, const Forecast& forecast) const;
     std::vector<ForeseenTile> foresee(Job* job, const Control& control, const Forecast& forecast) const;
     void choose_levels(Job* job, const Control& control, const Forecast& forecast, const passes::Witnesses& witnesses) const;
     void decide(Job* job, Control* control, const Forecast& forecast) const;
-    void list(Job* job, Control* control, const Forecast& forecast) const;
+    bool list(Job* job, Control* control, const Forecast& forecast) const;
     void shade(Job* job, const passes::Seeds& seeds) const;
     void measure(Job* job) const;
     void accumulate(Job* job) const;

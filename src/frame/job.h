@@ -12,7 +12,7 @@ struct Frame::Job {
     const Scene& scene;
     const Progress& progress;
     const std::shared_ptr<Result> result;
-    Settings settings;  // of its rounds: the frame's, but without interpolation where that does not pay
+    Settings settings;  // of its rounds: the frame's, but for the way of interpolation, and for a sampler that was replaced
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
     passes::Covered covered{};
@@ -30,6 +30,9 @@ struct Frame::Job {
     std::vector<uint8_t> material{};         // instance + 1 of each pixel, where there is an audit
     Audit audit{};
     double audited = 0;                      // part of the pixels
+    std::vector<Audit::Pixel> pilots{};      // the same pixels with about as many samples as the frame will have
+    uint32_t pilot_samples = 0;              // of each; 0: there are none
+    uint32_t unbiased_samples = 0;           // of each pixel that was rechecked
     double done = 0, part = 0;               // of the progress: before this round, and the round's own
 
     void report(double fraction) const {

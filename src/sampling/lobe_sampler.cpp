@@ -2,30 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bandwidth/octahedral.h"
+#include "sampling/lobe_grid.h"
 
 namespace lightband {
 namespace {
-
-// The grid on which a lobe's density is computed before it is inverted.
-constexpr int grid_x = 2 * int(BrdfTable::theta_half_cells);
-constexpr int grid_phi = 64;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double mean(const Vec3& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
-
-Vec3 half_vector(double x, double phi) {
-    const double theta = x * x * pi / 2;
-    return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-}
-
-// d(wi) / d(x, phi): solid angle of wi per unit of x and phi, for theta_half = x^2 * pi / 2.
-double solid_angle_density(double x, double cos_outgoing_half) {
-    return 4 * cos_outgoing_half * std::sin(x * x * pi / 2) * pi * x;
-}
 
 // Turns `cells` non-negative masses over [0, end] into `steps` equally probable intervals that cover it.
 void invert(const std::vector<double>& mass, double end, int steps, LobeTable::Step* out) {
@@ -42,42 +24,6 @@ void invert(const std::vector<double>& mass, double end, int steps, LobeTable::S
         out[k] = {float(last), float(next) - float(last)};
         last = float(next);
     }
-}
-
-struct LobeGrid {
-    std::vector<double> mass;         // grid_x * grid_phi, defensive part included
-    std::vector<double> most_dense;   // per row of x: the sampler's density, at most, per steradian
-    double albedo;
-};
-
-LobeGrid lobe_grid(const Brdf& brdf, const Vec3& wo) {
-    std::vector<double> grid(size_t(grid_x) * grid_phi), most_reflected(grid_x), least_solid_angle(grid_x, infinity);
-    double total = 0;
-    for (int i = 0; i < grid_x; ++i)
-        for (int j = 0; j < grid_phi; ++j) {
-            const double x = (i + 0.5) / grid_x;
-            const Vec3 h = half_vector(x, (j + 0.5) / grid_phi * pi);
-            const double oh = glm::dot(wo, h);
-            if (oh <= 0) continue;
-            const Vec3 wi = 2 * oh * h - wo;
-            if (wi.z <= 0) continue;
-            const double reflected = mean(evaluate(brdf, wi, wo)) * wi.z, value = reflected * solid_angle_density(x, oh);
-            grid[size_t(i) * grid_phi + size_t(j)] = value;
-            total += value;
-            most_reflected[size_t(i)] = std::max(most_reflected[size_t(i)], reflected);
-            least_solid_angle[size_t(i)] = std::min(least_solid_angle[size_t(i)], solid_angle_density(double(i) / grid_x, oh));
-        }
-    // A black lobe is sampled evenly: its samples carry nothing, but they must exist.
-    constexpr double defensive = LobeTable::defensive_part;
-    const double even = total > 0 ? total * defensive / (1 - defensive) : 1.0;
-    for (double& value : grid) value += even / double(grid.size());
-    const double albedo = total * (1.0 / grid_x) * (2 * pi / grid_phi);
-    std::vector<double> most_dense(grid_x);
-    for (size_t i = 0; i < most_dense.size(); ++i) {
-        const double followed = albedo > 0 ? (1 - defensive) * most_reflected[i] / albedo : 0;
-        most_dense[i] = followed + (albedo > 0 ? defensive : 1) / (2 * pi) / least_solid_angle[i];
-    }
-    return {std::move(grid), std::move(most_dense), albedo};
 }
 
 LobeSample sample_table(const LobeTable& table, const Vec3& wo, const Vec2& u) {
@@ -114,7 +60,7 @@ int step_holding(const LobeTable::Step* steps, int count, double value) {
 // LobeTable::denser of one view, whose steps of x are known.
 void find_denser(const std::vector<double>& most_dense, const LobeTable::Step* xs, float* denser) {
     for (size_t i = 0; i < most_dense.size(); ++i) {
-        const double end = double(i + 1) / grid_x;
+        const double end = double(i + 1) / lobe_rows;
         const int k = step_holding(xs, LobeTable::radial, end);
         const double drawn = std::min((k + (end - xs[k].start) / xs[k].width) / LobeTable::radial, 1.0);
         for (int octave = 0; octave < LobeTable::octaves; ++octave)
@@ -168,23 +114,23 @@ LobeTable lobe_table(const Brdf& brdf) {
     table.x.resize(size_t(LobeTable::views) * LobeTable::radial);
     table.phi.resize(table.x.size() * LobeTable::azimuthal);
     table.denser.resize(size_t(LobeTable::views) * LobeTable::octaves);
+    const LobeGrids grids(brdf, LobeTable::views, LobeTable::defensive_part);
     for (int view = 0; view < LobeTable::views; ++view) {
-        const double theta = (view + 0.5) / LobeTable::views * pi / 2;
-        const auto [grid, most_dense, albedo] = lobe_grid(brdf, Vec3(std::sin(theta), 0, std::cos(theta)));
+        const auto [grid, most_dense, albedo] = grids(view);
         table.albedo.push_back(float(albedo));
-        std::vector<double> rows(grid_x);
-        for (int i = 0; i < grid_x; ++i)
-            for (int j = 0; j < grid_phi; ++j) rows[size_t(i)] += grid[size_t(i) * grid_phi + size_t(j)];
+        std::vector<double> rows(lobe_rows);
+        for (int i = 0; i < lobe_rows; ++i)
+            for (int j = 0; j < lobe_columns; ++j) rows[size_t(i)] += grid[size_t(i) * lobe_columns + size_t(j)];
         LobeTable::Step* xs = &table.x[size_t(view) * LobeTable::radial];
         invert(rows, 1.0, LobeTable::radial, xs);
         find_denser(most_dense, xs, &table.denser[size_t(view) * LobeTable::octaves]);
         for (int k = 0; k < LobeTable::radial; ++k) {
             // The azimuth's density over the whole step: rows in proportion to their overlap with it.
-            std::vector<double> column(grid_phi);
-            const double first = xs[k].start * grid_x, last = (xs[k].start + xs[k].width) * grid_x;
-            for (int i = int(first); i < grid_x && i < last; ++i) {
+            std::vector<double> column(lobe_columns);
+            const double first = xs[k].start * lobe_rows, last = (xs[k].start + xs[k].width) * lobe_rows;
+            for (int i = int(first); i < lobe_rows && i < last; ++i) {
                 const double overlap = std::min(last, i + 1.0) - std::max(first, double(i));
-                for (int j = 0; j < grid_phi; ++j) column[size_t(j)] += overlap * grid[size_t(i) * grid_phi + size_t(j)];
+                for (int j = 0; j < lobe_columns; ++j) column[size_t(j)] += overlap * grid[size_t(i) * lobe_columns + size_t(j)];
             }
             invert(column, pi, LobeTable::azimuthal,
                    &table.phi[(size_t(view) * LobeTable::radial + size_t(k)) * LobeTable::azimuthal]);

@@ -68,6 +68,8 @@ class FrameStats:
     """Pixels that were also shaded with more samples, to know how far the others err; 0: no bias, or no time."""
     bias_error: float
     """The part of error that an audit found beyond the other two: a biased sampler's, and what replicates and witnesses do not tell."""
+    sampler_replaced: bool
+    """Samples without bias contradicted the sampler "cut"; the picture was drawn by another (frame.plan says which)."""
 
 
 @dataclass(frozen=True)
