@@ -1,5 +1,6 @@
 #include "arrays.h"
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
@@ -8,10 +9,6 @@
 namespace lightband_python {
 
 namespace {
-
-[[noreturn]] void refuse(const char* argument, const std::string& reason) {
-    throw lightband::Exception(LB_ERROR_INVALID_ARGUMENT, std::string(argument) + ": " + reason);
-}
 
 std::string describe_shape(const std::vector<py::ssize_t>& shape) {
     std::ostringstream text;
@@ -28,38 +25,85 @@ std::string describe_shape(const std::vector<py::ssize_t>& shape) {
     return text.str();
 }
 
-// An ndarray of any element type; kinds are NumPy's letters ("f" real, "i" signed, "u" unsigned).
-py::array to_ndarray(const py::object& values, const char* argument, const std::string& kinds) {
+// What an array argument must be, for messages.
+std::string expected_array(const char* elements, const std::vector<py::ssize_t>& shape) {
+    return std::string("an array of ") + elements + " of shape " + describe_shape(shape);
+}
+
+// Elements that a numpy.ma.MaskedArray hides would become numbers unseen.
+bool hides_elements(const py::object& value) {
+    return py::isinstance<py::array>(value) && py::hasattr(value, "mask") &&
+           py::cast<bool>(py::module_::import("numpy").attr("any")(value.attr("mask")));
+}
+
+constexpr const char* real_kinds = "fiu";  // NumPy's letters: real, signed, unsigned
+constexpr const char* whole_kinds = "iu";
+
+// An ndarray of one of these kinds of elements; expected says in a message what else it must be.
+py::array to_ndarray(const Given& given, const std::string& kinds, const std::string& expected) {
+    if (given.value.is_none() || PyUnicode_Check(given.value.ptr()) || PyBytes_Check(given.value.ptr())) {
+        given.refuse_type(expected);
+    }
+    if (hides_elements(given.value)) {
+        given.refuse_value("has masked elements; numpy.ma.filled gives them values");
+    }
     py::array array;
     try {
-        array = py::module_::import("numpy").attr("asarray")(values);
+        array = call_python(py::module_::import("numpy").attr("asarray"), py::make_tuple(given.value));
     } catch (const py::error_already_set& error) {
         if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) {
             throw;
         }
-        refuse(argument, "not an array: " + py::cast<std::string>(py::str(error.value())));
+        given.refuse_value("must be " + expected + ": " + py::cast<std::string>(py::str(error.value())));
     }
-    const bool empty_list = array.size() == 0 && !py::isinstance<py::array>(values);  // float64 whatever was meant
+    const bool empty_list = array.size() == 0 && !py::isinstance<py::array>(given.value);  // float64 whatever was meant
     if (kinds.find(array.dtype().kind()) == std::string::npos && !empty_list) {
-        refuse(argument, "elements of type " + py::cast<std::string>(py::str(array.dtype())) + " cannot be taken as " +
-                             (kinds == "iu" ? "whole numbers" : "real numbers"));
+        if (array.ndim() == 0) {
+            given.refuse_type(expected);
+        }
+        throw WrongType(given.place() + " must be " + expected + ", not " + describe_value(array));
     }
     return array;
 }
 
-void require_shape(const py::array& array, const char* argument, const std::vector<py::ssize_t>& shape) {
+void require_shape(const Given& given, const py::array& array, const std::vector<py::ssize_t>& shape,
+                   const std::string& expected) {
     bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
     for (size_t i = 0; fits && i < shape.size(); ++i) {
         fits = shape[i] == any_length || shape[i] == array.shape(static_cast<py::ssize_t>(i));
     }
     if (!fits) {
-        refuse(argument, "shape " + describe_shape(shape_of(array)) + " instead of " + describe_shape(shape));
+        given.refuse_value("must be " + expected + ", not " +
+                           (array.ndim() == 0 ? describe_value(given.value)
+                                              : "an array of shape " + describe_shape(shape_of(array))));
     }
 }
 
-// A value beyond float32 becomes infinite here; the library refuses it by name.
-FloatArray pack_floats(const py::array& array) {
-    return py::array_t<float, py::array::c_style | py::array::forcecast>(array);
+// Packs as float32. A value that becomes infinite by that is refused here: the library would speak of infinity.
+FloatArray pack_floats(const Given& given, const py::array& array) {
+    const py::module_ numpy = py::module_::import("numpy");
+    FloatArray packed;
+    {
+        const py::object quiet = numpy.attr("errstate")(py::arg("over") = "ignore", py::arg("under") = "ignore");
+        quiet.attr("__enter__")();
+        packed = py::array_t<float, py::array::c_style | py::array::forcecast>(array);
+        quiet.attr("__exit__")(py::none(), py::none(), py::none());
+    }
+    if (array.itemsize() > static_cast<py::ssize_t>(sizeof(float))) {
+        const py::object beyond = numpy.attr("isinf")(packed) & numpy.attr("isfinite")(array);
+        if (py::cast<bool>(beyond.attr("any")())) {
+            const py::object value = array.attr("flat")[numpy.attr("argmax")(beyond)];
+            given.refuse_value("holds " + py::cast<std::string>(py::str(value)) +
+                               ", which does not fit a 32-bit float, at most 3.4e38");
+        }
+    }
+    return packed;
+}
+
+FloatArray to_floats(const Given& given, const std::vector<py::ssize_t>& shape, const std::string& expected) {
+    const py::array array = to_ndarray(given, real_kinds, expected);
+    require_shape(given, array, shape, expected);
+    return pack_floats(given, array);
 }
 
 py::dtype element_type(uint32_t type) {
@@ -87,71 +131,72 @@ py::array to_array(std::string name, lightband::Buffer buffer) {
     return array;
 }
 
-FloatArray to_floats(const py::object& values, const char* argument, const std::vector<py::ssize_t>& shape) {
-    const py::array array = to_ndarray(values, argument, "fiu");
-    require_shape(array, argument, shape);
-    return pack_floats(array);
+FloatArray to_floats(const Given& given, const std::vector<py::ssize_t>& shape) {
+    return to_floats(given, shape, expected_array("real numbers", shape));
 }
 
-FloatArray to_floats(const py::object& values, const char* argument) {
-    return pack_floats(to_ndarray(values, argument, "fiu"));
+FloatArray to_floats(const Given& given) {
+    return pack_floats(given, to_ndarray(given, real_kinds, "a number or an array of real numbers"));
 }
 
-FloatArray to_vectors(const py::object& values, const char* argument) {
-    const py::array array = to_ndarray(values, argument, "fiu");
+FloatArray to_vectors(const Given& given) {
+    constexpr const char* expected = "an array of real numbers of shape (..., 3)";
+    const py::array array = to_ndarray(given, real_kinds, expected);
     if (array.ndim() == 0 || array.shape(array.ndim() - 1) != 3) {
-        refuse(argument, "shape " + describe_shape(shape_of(array)) + " instead of (..., 3)");
+        require_shape(given, array, {any_length, 3}, expected);
     }
-    return pack_floats(array);
+    return pack_floats(given, array);
 }
 
-IndexArray to_indices(const py::object& values, const char* argument, const std::vector<py::ssize_t>& shape) {
-    const py::array array = to_ndarray(values, argument, "iu");
-    require_shape(array, argument, shape);
+IndexArray to_indices(const Given& given, const std::vector<py::ssize_t>& shape) {
+    const std::string expected = expected_array("whole numbers", shape);
+    const py::array array = to_ndarray(given, whole_kinds, expected);
+    require_shape(given, array, shape, expected);
     if (array.size() > 0) {
-        const py::object smallest = array.attr("min")();
-        const py::object largest = array.attr("max")();
-        if (smallest < py::int_(0)) {
-            refuse(argument, py::cast<std::string>(py::str(smallest)) + " is negative");
-        }
-        if (largest > py::int_(std::numeric_limits<uint32_t>::max())) {
-            refuse(argument, py::cast<std::string>(py::str(largest)) + " exceeds 32 bits");
+        for (const char* extreme : {"min", "max"}) {
+            const py::object value = array.attr(extreme)();
+            if (value < py::int_(0) || value > py::int_(std::numeric_limits<uint32_t>::max())) {
+                given.refuse_value("holds " + py::cast<std::string>(py::str(value)) + "; each must be 0 to 4294967295");
+            }
         }
     }
     return py::array_t<uint32_t, py::array::c_style | py::array::forcecast>(array);
 }
 
-lightband::Vector to_colour(const py::object& value, const char* argument) {
-    const py::array array = to_ndarray(value, argument, "fiu");
+lightband::Vector to_colour(const Given& given) {
+    constexpr const char* expected = "one number or three (RGB)";
+    const py::array array = to_ndarray(given, real_kinds, expected);
     if (array.ndim() == 0) {
-        const float grey = py::cast<float>(py::float_(array));
+        const float grey = *pack_floats(given, array).data();
         return {grey, grey, grey};
     }
-    return to_vector(array, argument);
-}
-
-lightband::Vector to_vector(const py::object& value, const char* argument) {
-    const FloatArray components = to_floats(value, argument, {3});
+    const FloatArray components = to_floats(given, {3}, expected);
     return {components.at(0), components.at(1), components.at(2)};
 }
 
-lightband::Transform to_transform(const py::object& value) {
-    const py::array matrix = to_ndarray(value, "transform", "fiu");
+lightband::Vector to_vector(const Given& given) {
+    const FloatArray components = to_floats(given, {3}, "three finite numbers");
+    return {components.at(0), components.at(1), components.at(2)};
+}
+
+lightband::Transform to_transform(const Given& given) {
+    constexpr const char* expected = "a 3x4 or 4x4 matrix of real numbers";
+    const py::array matrix = to_ndarray(given, real_kinds, expected);
     const bool homogeneous = matrix.ndim() == 2 && matrix.shape(0) == 4;
-    const FloatArray rows = to_floats(matrix, "transform", {homogeneous ? 4 : 3, 4});
+    const FloatArray rows = to_floats(given, {homogeneous ? 4 : 3, 4}, expected);
     if (homogeneous && (rows.at(3, 0) != 0 || rows.at(3, 1) != 0 || rows.at(3, 2) != 0 || rows.at(3, 3) != 1)) {
-        refuse("transform", "the last row of a 4x4 matrix must be (0, 0, 0, 1)");
+        given.refuse_value("is a 4x4 matrix whose last row is not (0, 0, 0, 1)");
     }
     lightband::Transform transform;
     std::copy_n(rows.data(), transform.size(), transform.begin());
     return transform;
 }
 
-uint32_t to_uint32(py::ssize_t value, const char* argument) {
-    if (value < 0 || static_cast<uint64_t>(value) > std::numeric_limits<uint32_t>::max()) {
-        refuse(argument, std::to_string(value) + " is not in [0, 4294967295]");
+uint32_t to_length(const Given& given, py::ssize_t length, const char* what) {
+    if (static_cast<uint64_t>(length) > std::numeric_limits<uint32_t>::max()) {
+        given.refuse_value("has " + std::to_string(length) + " " + what + "; at most 4294967295 are possible");
     }
-    return static_cast<uint32_t>(value);
+    return static_cast<uint32_t>(length);
 }
 
 std::vector<py::ssize_t> shape_of(const py::array& array) {
@@ -166,13 +211,19 @@ happens to the frame, material or map that it came from, and says what the numbe
 
     >>> frame.bandwidth_image.base.unit
     '1/pixel')");
-    refuse_pickling(type);
-    type.def_readonly("name", &FieldBuffer::name, "Name of the field.")
-        .def_property_readonly(
-            "unit", [](const FieldBuffer& self) { return to_str(self.buffer.view().unit); }, "Unit of the elements.")
-        .def("__repr__", [](const FieldBuffer& self) {
-            return "<lightband.Buffer '" + self.name + "' in " + self.buffer.view().unit + ">";
-        });
+    refuse_construction<FieldBuffer>(type, "the base of an array that the library returns is one");
+    refuse_pickling<FieldBuffer>(type);
+    define_property(
+        type, "name", +[](const FieldBuffer& self) { return self.name; }, "Name of the field.");
+    define_property(
+        type, "unit", +[](const FieldBuffer& self) { return to_str(self.handle.view().unit); },
+        "Unit of the elements; \"\" of a pure number.");
+    define(
+        type, "__repr__(self)",
+        +[](const FieldBuffer& self) {
+            return "<lightband.Buffer '" + self.name + "' in " + self.handle.view().unit + ">";
+        },
+        "The field and its unit.");
 }
 
 }  // namespace lightband_python

@@ -1,5 +1,8 @@
 #include "call.h"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <vector>
 
 #include "lightband/lightband.hpp"
@@ -11,20 +14,21 @@ namespace {
 thread_local int running_callbacks = 0;
 thread_local std::vector<std::function<void()>> postponed;
 
-}  // namespace
+// Threads that are inside the library or in a callback of it. One that Python's end stopped there counts for ever.
+std::atomic<int> threads_inside = 0;
 
-LibraryCall::Permission::Permission() {
-    if (running_callbacks > 0) {
-        throw lightband::Exception(
-            LB_ERROR_INVALID_STATE,
-            "a progress or log callback must not call the library: keep what it needs beforehand, "
-            "or do the work after the call returned");
-    }
+bool is_finalizing() {
+#if PY_VERSION_HEX >= 0x030D0000
+    return Py_IsFinalizing() != 0;
+#else
+    return _Py_IsFinalizing() != 0;
+#endif
 }
 
-LibraryCall::LibraryCall() = default;
+// Whether a call could wait for a thread that Python's end has stopped.
+bool could_wait_for_ever() { return is_finalizing() && threads_inside > 0; }
 
-LibraryCall::~LibraryCall() {
+void run_postponed() {
     while (!postponed.empty()) {
         const std::vector<std::function<void()>> batch = std::exchange(postponed, {});
         for (const std::function<void()>& destroy : batch) {
@@ -33,29 +37,72 @@ LibraryCall::~LibraryCall() {
     }
 }
 
-CallbackScope::CallbackScope() {
-    ++running_callbacks;
+}  // namespace
+
+void wait_for_process_end() {
+    for (;;) {
+        pause();
+    }
 }
 
-CallbackScope::~CallbackScope() {
-    --running_callbacks;
+UnlockedScope::UnlockedScope() : state_((++threads_inside, PyEval_SaveThread())) {}
+
+UnlockedScope::~UnlockedScope() {
+    surviving_finalization([&] { PyEval_RestoreThread(state_); });
+    --threads_inside;
+}
+
+LibraryCall::Permission::Permission() {
+    if (running_callbacks > 0) {
+        throw lightband::Exception(
+            LB_ERROR_INVALID_STATE,
+            "a progress or log callback must not call the library: keep what it needs beforehand, "
+            "or do the work after the call returned");
+    }
+    if (could_wait_for_ever()) {
+        throw lightband::Exception(LB_ERROR_INVALID_STATE,
+                                   "Python is ending while another thread is inside the library: no call is possible");
+    }
+}
+
+LibraryCall::LibraryCall() = default;
+
+LibraryCall::~LibraryCall() { run_postponed(); }
+
+CallbackScope::Lock::Lock() : state(surviving_finalization([] { return PyGILState_Ensure(); })) {}
+
+CallbackScope::Lock::~Lock() { PyGILState_Release(state); }
+
+CallbackScope::CallbackScope() { ++running_callbacks; }
+
+CallbackScope::~CallbackScope() { --running_callbacks; }
+
+py::object call_python(py::handle function, const py::tuple& arguments) {
+    PyObject* const result = surviving_finalization([&] { return PyObject_CallObject(function.ptr(), arguments.ptr()); });
+    if (result == nullptr) {
+        throw py::error_already_set();
+    }
+    return py::reinterpret_steal<py::object>(result);
 }
 
 void destroy_outside(std::function<void()> destroy) {
     if (running_callbacks > 0) {
         postponed.push_back(std::move(destroy));
-    } else if (PyGILState_Check()) {
-        py::gil_scoped_release unlocked;
+    } else if (PyGILState_Check() == 0) {
         destroy();
-    } else {
+    } else if (!could_wait_for_ever()) {
+        UnlockedScope unlocked;
         destroy();
+        run_postponed();
     }
 }
 
 std::shared_ptr<py::object> unlocked_reference(py::object object) {
     return std::shared_ptr<py::object>(new py::object(std::move(object)), [](py::object* last) {
-        py::gil_scoped_acquire locked;
+        CallbackScope locked;
+        const py::handle dropped = last->release();
         delete last;
+        surviving_finalization([&] { dropped.dec_ref(); });
     });
 }
 

@@ -1,8 +1,8 @@
 // lightband.Frame: a picture's size and settings, its rendering, and its fields as arrays.
-#include <pybind11/stl/filesystem.h>
-
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 
 #include "arrays.h"
 #include "objects.h"
@@ -52,11 +52,14 @@ constexpr Field fields[] = {
      "float32, rows x width: the relative variances' max pyramid, level below level; pyramid() takes it apart."},
 };
 
-constexpr const char* common_documentation = R"(
+constexpr const char* frame_documentation = R"(A picture's size and settings; renders scenes and holds their fields.
 
-Rows run top-down; pixels that see no mesh hold 0 unless said otherwise. The array is read-only and shows the
-library's memory without a copy; it stays as it is when the frame renders again or is deleted. Each access reads the
-field back from the device anew: keep the array. Equations: Bagher et al. 2013.)";
+Made by Context.frame. Settings are read and written by name: frame["samples"] = 64.
+
+The fields of the last frame are arrays (frame.color, frame.depth, ...). Rows run top-down; pixels that see no mesh hold 0
+unless said otherwise. An array is read-only and shows the library's memory without a copy; it stays as it is when the
+frame renders again or is deleted. Each access reads the field back from the device anew: keep the array. Equations:
+Bagher et al. 2013.)";
 
 py::array buffer(const Frame& self, const std::string& name) {
     return to_array(name, in_library([&] { return self.handle.map(name); }));
@@ -65,7 +68,8 @@ py::array buffer(const Frame& self, const std::string& name) {
 // Level k of a pyramid is ceil(height / 2^k) x ceil(width / 2^k) and lies below level k - 1.
 py::list pyramid(const Frame& self, const std::string& name) {
     if (name != "level_pyramid" && name != "variance_pyramid") {
-        throw lightband::Exception(LB_ERROR_INVALID_ARGUMENT, "name: \"" + name + "\" is not a pyramid");
+        throw lightband::Exception(LB_ERROR_INVALID_ARGUMENT, "Frame.pyramid: name is \"" + name +
+                                                                  "\"; it must be \"level_pyramid\" or \"variance_pyramid\"");
     }
     const py::array packed = buffer(self, name);
     py::ssize_t height = self.height;
@@ -80,147 +84,190 @@ py::list pyramid(const Frame& self, const std::string& name) {
     return levels;
 }
 
-void set_setting(Frame& self, const std::string& name, const py::object& value) {
-    if (py::isinstance<py::str>(value)) {
-        const std::string choice = py::cast<std::string>(value);
-        in_library([&] { self.handle.set(name, choice); });
-        return;
-    }
-    const double number = PyFloat_AsDouble(value.ptr());
-    if (number == -1.0 && PyErr_Occurred() != nullptr) {
-        throw py::error_already_set();
-    }
-    in_library([&] { self.handle.set(name, number); });
-}
-
-// Type of a setting; LB_SETTING_REAL for an unknown name, at which the call that follows fails.
-uint32_t setting_type(const std::string& name) {
-    for (uint32_t i = 0; i < lb_setting_count(); ++i) {
-        lb_setting_info info = LB_SETTING_INFO_INIT;
-        lightband::check(lb_setting_at(i, &info));
-        if (name == info.name) {
-            return info.type;
+// What the library says of a setting; nothing of an unknown name, at which the call that follows fails.
+std::optional<lb_setting_info> find_setting(const std::string& name) {
+    return in_library([&]() -> std::optional<lb_setting_info> {
+        for (uint32_t i = 0; i < lb_setting_count(); ++i) {
+            lb_setting_info info = LB_SETTING_INFO_INIT;
+            lightband::check(lb_setting_at(i, &info));
+            if (name == info.name) {
+                return info;
+            }
         }
-    }
-    return LB_SETTING_REAL;
+        return std::nullopt;
+    });
 }
 
-py::object get_setting(const Frame& self, const std::string& name) {
-    const uint32_t type = in_library([&] { return setting_type(name); });
-    if (type == LB_SETTING_CHOICE) {
+std::string expected_value(const lb_setting_info& info) {
+    switch (info.type) {
+        case LB_SETTING_INTEGER:
+            return "a whole number";
+        case LB_SETTING_REAL:
+            return "a number";
+        default:
+            return "a str, one of " + std::string(info.choices);
+    }
+}
+
+void set_item(Frame& self, const Given& name, const Given& value) { set_setting(self, to_text(name), value); }
+
+py::object get_item(const Frame& self, const std::string& name) {
+    const std::optional<lb_setting_info> info = find_setting(name);
+    if (info && info->type == LB_SETTING_CHOICE) {
         return to_str(in_library([&] { return self.handle.choice(name); }).c_str());
     }
     const double value = in_library([&] { return self.handle.number(name); });
-    if (type == LB_SETTING_INTEGER) {
+    if (info->type == LB_SETTING_INTEGER) {
         return py::int_(std::llround(value));
     }
     return py::float_(value);
 }
 
 // Between the parts of a frame Python may raise KeyboardInterrupt, run other threads, and be told how far it is.
-void render(Frame& self, const Scene& scene, const py::object& progress) {
-    if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) {
-        throw py::type_error("progress: a callable or None is expected");
-    }
-    const lightband::Progress step = [&progress](double fraction) {
+void render(Frame& self, const Scene& scene, const Given& given) {
+    const py::object progress = to_callable(given);
+    const py::object cancel = py::module_::import("lightband._records").attr("CANCEL");
+    const lightband::Progress step = [&](double fraction) {
         CallbackScope callback;
-        if (PyErr_CheckSignals() != 0) {
+        if (surviving_finalization([] { return PyErr_CheckSignals(); }) != 0) {
             throw py::error_already_set();
         }
-        if (progress.is_none()) {
-            return false;
-        }
-        const int stop = PyObject_IsTrue(progress(fraction).ptr());
-        if (stop == -1) {
-            throw py::error_already_set();
-        }
-        return stop == 1;
+        return !progress.is_none() && call_python(progress, py::make_tuple(fraction)).is(cancel);
     };
     in_library([&] { self.handle.render(scene.handle, step); });
 }
 
 py::object stats(const Frame& self) {
     const lb_frame_stats stats = in_library([&] { return self.handle.stats(); });
-    return py::module_::import("lightband._records")
-        .attr("FrameStats")(stats.width, stats.height, stats.frames, stats.covered_pixels, stats.shaded_pixels,
-                            stats.samples, stats.saturated_pixels, stats.bent_normals, stats.device_bytes,
-                            stats.milliseconds, stats.bandwidth_milliseconds, stats.shading_milliseconds, stats.error,
-                            stats.noise_error, stats.interpolation_error, stats.capped_pixels, stats.rounds,
-                            stats.audited_pixels, stats.bias_error, stats.sampler_replaced != 0);
+    const py::tuple values = py::make_tuple(
+        stats.width, stats.height, stats.frames, stats.covered_pixels, stats.shaded_pixels, stats.samples,
+        stats.saturated_pixels, stats.bent_normals, stats.device_bytes, stats.milliseconds,
+        stats.bandwidth_milliseconds, stats.shading_milliseconds, stats.error, stats.noise_error,
+        stats.interpolation_error, stats.capped_pixels, stats.rounds, stats.audited_pixels, stats.bias_error,
+        stats.sampler_replaced != 0);
+    return call_python(py::module_::import("lightband._records").attr("FrameStats"), values);
 }
 
 py::str plan(const Frame& self) {
     return to_str(in_library([&] { return self.handle.explain(); }).c_str());
 }
 
-void save(const Frame& self, const std::filesystem::path& path, const py::object& names, float exposure) {
+// The names of fields, separated by commas; "" for None.
+std::string to_list(const Given& names) {
+    constexpr const char* expected = "names of fields, as one str or an iterable of str";
+    if (names.value.is_none()) {
+        return "";
+    }
+    if (py::isinstance<py::str>(names.value)) {
+        const std::string list = to_text(names);
+        if (list.empty()) {
+            names.refuse_value("is empty: it must name a field");
+        }
+        return list;
+    }
+    PyObject* const iterator = PyBytes_Check(names.value.ptr()) ? nullptr : PyObject_GetIter(names.value.ptr());
+    if (iterator == nullptr) {
+        if (PyErr_Occurred() != nullptr && PyErr_ExceptionMatches(PyExc_TypeError) == 0) {
+            throw py::error_already_set();
+        }
+        PyErr_Clear();
+        names.refuse_type(expected);
+    }
     std::string list;
-    if (py::isinstance<py::str>(names)) {
-        list = py::cast<std::string>(names);
-    } else if (!names.is_none()) {
-        list = py::cast<std::string>(py::str(",").attr("join")(names));
+    for (const py::handle name : py::reinterpret_steal<py::iterator>(iterator)) {
+        if (!py::isinstance<py::str>(name)) {
+            throw WrongType(names.place() + " must be " + expected + " or None; one is " +
+                            describe_value(py::reinterpret_borrow<py::object>(name)));
+        }
+        list += (list.empty() ? "" : ",") +
+                to_text({names.function, names.name, py::reinterpret_borrow<py::object>(name)});
     }
-    if (!names.is_none() && list.empty()) {
-        throw lightband::Exception(LB_ERROR_INVALID_ARGUMENT, "fields: none is named");
+    if (list.empty()) {
+        names.refuse_value("is empty: it must name a field");
     }
+    return list;
+}
+
+void save(const Frame& self, const std::filesystem::path& path, const Given& names, float exposure) {
+    const std::string list = to_list(names);
     in_library([&] { self.handle.save(path.string(), list, exposure); });
 }
 
-void bind_settings(FrameClass& type) {
-    type.def("__getitem__", &get_setting, py::arg("name"), "The value of a setting.");
-    type.def("__setitem__", &set_setting, py::arg("name"), py::arg("value"),
-             "Sets a setting: a number or, for a choice, its name.");
-    type.def_property_readonly(
-        "settings",
-        [](const py::object& self) { return py::module_::import("lightband._records").attr("Settings")(self); },
+template <size_t index>
+py::array field(const Frame& self) {
+    return buffer(self, fields[index].name);
+}
+
+template <size_t... indices>
+void bind_fields(const FrameClass& type, std::index_sequence<indices...> /*indices*/) {
+    (define_property(type, fields[indices].name, &field<indices>, fields[indices].documentation), ...);
+}
+
+void bind_settings(const FrameClass& type) {
+    define(type, "__getitem__(self, name)", &get_item, "The value of a setting.");
+    define(type, "__setitem__(self, name, value)", &set_item, "Sets a setting: a number or, for a choice, its name.");
+    define_property(
+        type, "settings",
+        +[](const Given& self) {
+            From<const Frame*>::take(self);
+            return call_python(py::module_::import("lightband._records").attr("Settings"), py::make_tuple(self.value));
+        },
         "The settings as a mapping from name to value; deleting one restores its default.");
 }
 
-void bind_results(FrameClass& type) {
-    type.def_property_readonly("stats", &stats, "Counts and times of the last frame, a FrameStats.");
-    type.def_property_readonly("plan", &plan, "The passes of the last frame as text, each with its reason and cost.");
-    type.def("save", &save, py::arg("path"), py::arg("fields") = py::none(), py::arg("exposure") = 0.0f,
-             R"(Writes the frame to a file, which is complete or not there.
+void bind_results(const FrameClass& type) {
+    define_property(type, "stats", &stats, "Counts and times of the last frame, a FrameStats.");
+    define_property(type, "plan", &plan, "The passes of the last frame as text, each with its reason and cost.");
+    define(type, "save(self, path, fields=None, exposure=0.0)", &save,
+           R"(Writes the frame to a file, which is complete or not there.
 
 path: ends in ".exr" (float channels, any fields) or ".png" (color alone, as sRGB times 2**exposure).
 fields: names, as a sequence or separated by commas; None: color alone.)");
-    type.def("buffer", &buffer, py::arg("name"),
-             (std::string("A field of the last frame as an array; lightband.buffer_names() lists the names.") +
-              common_documentation)
-                 .c_str());
-    type.def("pyramid", &pyramid, py::arg("name"), R"(A pyramid level by level: a list of views of one array.
+    define(type, "buffer(self, name)", &buffer,
+           "A field of the last frame as an array; lightband.buffer_names() lists the names.");
+    define(type, "pyramid(self, name)", &pyramid, R"(A pyramid level by level: a list of views of one array.
 
 name: "level_pyramid" or "variance_pyramid". Level k has the size of the frame divided by 2**k, rounded up.)");
-    for (const Field& field : fields) {
-        type.def_property_readonly(
-            field.name, [name = field.name](const Frame& self) { return buffer(self, name); },
-            (std::string(field.documentation) + common_documentation).c_str());
-    }
+    bind_fields(type, std::make_index_sequence<std::size(fields)>());
 }
 
 }  // namespace
 
+void set_setting(Frame& self, const std::string& name, const Given& value) {
+    if (py::isinstance<py::str>(value.value)) {
+        const std::string choice = to_text({value.function, name, value.value});
+        in_library([&] { self.handle.set(name, choice); });
+        return;
+    }
+    const std::optional<lb_setting_info> info = find_setting(name);
+    const double number = info ? to_double({value.function, name, value.value}, expected_value(*info)) : 0;
+    in_library([&] { self.handle.set(name, number); });
+}
+
 void bind_frame(py::module_& module) {
-    FrameClass type(module, "Frame", R"(A picture's size and settings; renders scenes and holds their fields.
-
-Made by Context.frame. Settings are read and written by name: frame["samples"] = 64.)");
+    FrameClass type(module, "Frame", frame_documentation, collectable<Frame>());
+    refuse_construction(type, "Context.frame makes one");
     bind_closing(type);
-    type.def_property_readonly(
-        "width", [](const Frame& self) { return self.width; }, "Pixels.");
-    type.def_property_readonly(
-        "height", [](const Frame& self) { return self.height; }, "Pixels.");
-    type.def("render", &render, py::arg("scene"), py::arg("progress") = py::none(), R"(Renders the scene.
+    define_property(
+        type, "width", +[](const Frame* self) { return self->width; }, "Pixels.");
+    define_property(
+        type, "height", +[](const Frame* self) { return self->height; }, "Pixels.");
+    define(type, "render(self, scene, progress=None)", &render, R"(Renders the scene.
 
-progress: called between parts of the frame with the fraction done, in [0, 1]. When it returns a true value, the call
-    raises Cancelled; what it raises, the call raises. It must not call the library.
+progress: called between parts of the frame with the fraction of its work that is done, which rises from 0 to 1. When it
+    returns lightband.CANCEL, the call raises Cancelled; what it raises, the call raises. Any other value is ignored. It
+    must not call the library.
 
 Other threads run meanwhile, and Ctrl-C raises KeyboardInterrupt at the next part. After any failure the frame holds
 what it held before.)");
     bind_settings(type);
     bind_results(type);
-    type.def("__repr__", [](const Frame& self) {
-        return describe("Frame", self, std::to_string(self.width) + " x " + std::to_string(self.height));
-    });
+    define(
+        type, "__repr__(self)",
+        +[](const Frame* self) {
+            return describe("Frame", *self, std::to_string(self->width) + " x " + std::to_string(self->height));
+        },
+        "The size.");
 }
 
 }  // namespace lightband_python

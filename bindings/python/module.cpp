@@ -10,7 +10,14 @@ namespace {
 
 // Raises the class of lightband.errors that has the code of the library's exception.
 void raise_error(const lightband::Exception& exception) {
-    const py::object type = py::module_::import("lightband.errors").attr("class_of")(exception.code());
+    const py::object type = call_python(
+        py::module_::import("lightband.errors").attr("class_of"), py::make_tuple(exception.code()));
+    PyErr_SetObject(type.ptr(), to_str(exception.what()).ptr());
+}
+
+// lightband.InvalidType is no class of a result code: the library itself never sees a wrong type.
+void raise_wrong_type(const WrongType& exception) {
+    const py::object type = py::module_::import("lightband.errors").attr("InvalidType");
     PyErr_SetObject(type.ptr(), to_str(exception.what()).ptr());
 }
 
@@ -21,6 +28,8 @@ void translate(std::exception_ptr thrown) {
         }
     } catch (const lightband::Exception& exception) {
         raise_error(exception);
+    } catch (const WrongType& exception) {
+        raise_wrong_type(exception);
     }
 }
 
@@ -69,14 +78,16 @@ std::string version() {
 
 PYBIND11_MODULE(_lightband, module) {
     module.doc() = "The library behind the package lightband.";
+    py::options options;
+    options.disable_function_signatures();  // each docstring brings its own (function.h)
     module.attr("__version__") = version();
     py::register_local_exception_translator(&translate);
-    module.def("settings", &settings, "The settings of a frame: a tuple of Setting, in the library's order.");
-    module.def(
-        "builtin_materials", [] { return names(lb_brdf_builtin_count(), &lb_brdf_builtin_name); },
+    define(module, "settings()", &settings, "The settings of a frame: a tuple of Setting, in the library's order.");
+    define(
+        module, "builtin_materials()", +[] { return names(lb_brdf_builtin_count(), &lb_brdf_builtin_name); },
         "Names for Context.builtin_brdf.");
-    module.def(
-        "buffer_names", [] { return names(lb_frame_buffer_count(), &lb_frame_buffer_name); },
+    define(
+        module, "buffer_names()", +[] { return names(lb_frame_buffer_count(), &lb_frame_buffer_name); },
         "Names for Frame.buffer and Frame.save.");
     bind_field_buffer(module);
     bind_light_and_material(module);

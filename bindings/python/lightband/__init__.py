@@ -30,7 +30,7 @@ from ._lightband import (
     builtin_materials,
     settings,
 )
-from ._records import FrameStats, MeshStats, Setting, Settings
+from ._records import CANCEL, FrameStats, MeshStats, Setting, Settings
 from .errors import (
     Cancelled,
     DeviceError,
@@ -40,12 +40,14 @@ from .errors import (
     InternalError,
     InvalidArgument,
     InvalidHandle,
+    InvalidType,
     LimitError,
     OutOfMemory,
     StateError,
 )
 
 __all__ = [
+    "CANCEL",
     "Brdf",
     "Buffer",
     "Cancelled",
@@ -60,6 +62,7 @@ __all__ = [
     "InternalError",
     "InvalidArgument",
     "InvalidHandle",
+    "InvalidType",
     "LimitError",
     "Mesh",
     "MeshStats",

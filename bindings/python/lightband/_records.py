@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, MutableMapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from enum import Enum
+from typing import TYPE_CHECKING, Final, Literal
 
 from . import _lightband
 
 if TYPE_CHECKING:
     from ._lightband import Frame
+
+
+class Answer(Enum):
+    """What a progress callback may return to Frame.render; any other value is ignored."""
+
+    CANCEL = "cancel"
+    """Stop: the call raises Cancelled, and the frame holds what it held before."""
+
+    def __repr__(self) -> str:
+        return f"lightband.{self.name}"
+
+
+CANCEL: Final = Answer.CANCEL
 
 
 @dataclass(frozen=True)

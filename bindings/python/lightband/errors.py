@@ -11,6 +11,7 @@ __all__ = [
     "InternalError",
     "InvalidArgument",
     "InvalidHandle",
+    "InvalidType",
     "LimitError",
     "OutOfMemory",
     "StateError",
@@ -28,6 +29,10 @@ class InvalidArgument(Error, ValueError):
     """An argument is not finite, out of range, of the wrong shape or of an unknown name."""
 
     code = 1
+
+
+class InvalidType(InvalidArgument, TypeError):
+    """An argument is of the wrong type, missing, of an unknown name or one too many."""
 
 
 class InvalidHandle(Error, ValueError):
