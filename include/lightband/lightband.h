@@ -299,7 +299,8 @@ typedef struct lb_setting_info {
 LB_API uint32_t lb_setting_count(void);
 LB_API lb_result lb_setting_at(uint32_t index, lb_setting_info* info);
 
-/* Called between parts of a frame with the fraction done, in [0, 1]. Non-zero: stop; the render call returns
+/* Called between parts of a frame with the fraction of the call's time that has passed: from 0 to 1, never falling; an estimate
+ * where the number of rounds is not known beforehand. Non-zero: stop; the render call returns
  * LB_ERROR_CANCELLED and the frame holds what it held before. */
 typedef int32_t (*lb_progress_callback)(void* user, double fraction);
 

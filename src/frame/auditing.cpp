@@ -34,8 +34,12 @@ std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<u
     std::vector<std::vector<uint32_t>> of_slot(job.slots.materials.size());  // y << 16 | x
     for (const uint32_t at : drawn) of_slot[slot_of(at)].push_back(at / width_ << 16 | at % width_);
     const passes::ShadingList list = passes::even_list(*device_, of_slot, samples);
+    job.meter.begin();
     passes::shade(*device_, job.scene, job.slots, own, {seed, seed}, list, next.gbuffer, next.shading,
-                  [&](uint64_t) { job.report(0); });
+                  [&](uint64_t done) {
+                      const double all = double(list.total_samples);
+                      job.meter.report(job.meter.left(double(done), all, all / pace_.samples_per_millisecond) + job.expected);
+                  });
     const std::vector<passes::Gathered> shown =
         passes::gather(*device_, list, next.gbuffer, next.shading, next.prediction ? &*next.prediction : nullptr);
     std::vector<size_t> next_of(of_slot.size());  // slot by slot, as listed

@@ -11,6 +11,7 @@
 #include "frame/audit.h"
 #include "frame/control.h"
 #include "frame/host_array.h"
+#include "frame/meter.h"
 #include "frame/plan.h"
 #include "frame/recheck.h"
 #include "passes/shade.h"
@@ -19,9 +20,6 @@
 #include "picture/targets.h"
 
 namespace lightband {
-
-// Called with the fraction done; true: cancel.
-using Progress = std::function<bool(double)>;
 
 class Frame {
 public:
@@ -74,6 +72,9 @@ private:
     void choose_levels(Job* job, const Control& control, const Forecast& forecast, const passes::Witnesses& witnesses) const;
     void decide(Job* job, Control* control, const Forecast& forecast) const;
     bool list(Job* job, Control* control, const Forecast& forecast) const;
+    double expected_shading(double covered) const;
+    void report_preparation(const Job& job) const;
+    void report_shading(const Job& job, double samples) const;
     void shade(Job* job, const passes::Seeds& seeds) const;
     void measure(Job* job) const;
     void accumulate(Job* job) const;

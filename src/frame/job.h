@@ -1,6 +1,7 @@
 // A render call on its way.
 #pragma once
 
+#include "frame/meter.h"
 #include "frame/redraw.h"
 #include "frame/result.h"
 #include "passes/covered.h"
@@ -10,7 +11,7 @@ namespace lightband {
 // What the steps of one render call share.
 struct Frame::Job {
     const Scene& scene;
-    const Progress& progress;
+    Meter& meter;
     const std::shared_ptr<Result> result;
     Settings settings;  // of its rounds: the frame's, but for the way of interpolation, and for a sampler that was replaced
     const Scene::Slots slots;
@@ -33,12 +34,8 @@ struct Frame::Job {
     std::vector<Audit::Pixel> pilots{};      // the same pixels with about as many samples as the frame will have
     uint32_t pilot_samples = 0;              // of each; 0: there are none
     uint32_t unbiased_samples = 0;           // of each pixel that was rechecked
-    double done = 0, part = 0;               // of the progress: before this round, and the round's own
-
-    void report(double fraction) const {
-        if (progress && progress(std::min(done + part * fraction, 1.0)))
-            throw Error(LB_ERROR_CANCELLED, "the progress callback cancelled the frame");
-    }
+    double expected = 0;                     // milliseconds of shading, before the first round is planned
+    double further = 0;                      // times as long as a round's shading is expected to be done after it
 };
 
 }  // namespace lightband

@@ -8,9 +8,9 @@
 namespace lightband::passes {
 namespace {
 
-// Samples of one dispatch: about half a second on a software renderer, so that progress moves and cancelling works, and far
-// below the watchdogs of graphics drivers.
-constexpr uint64_t dispatch_samples = 1u << 23;
+// Samples of one dispatch: about half a second on a software renderer of two cores, so that progress moves and cancelling works; some
+// milliseconds on a graphics processor, beside which the wait between two dispatches is short.
+constexpr uint64_t dispatch_samples = 1u << 21;
 
 // Pixels of one workgroup: no fewer than most graphics processors run at a time, few enough that an audit of some dozen pixels makes more
 // than one.

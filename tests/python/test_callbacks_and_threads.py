@@ -44,13 +44,35 @@ def run_to_the_end(work: Callable[[], object]) -> None:
         raise failures[0]
 
 
-def test_progress_rises_from_0_to_1(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
+WORK: dict[str, dict[str, float | str]] = {
+    "samples": {"samples": 256},
+    "rounds": {"target_error": 0.02},
+    "time": {"time_budget": 300},
+    "reference": {"method": "reference", "samples": 512},
+    "accumulate": {"samples": 32, "accumulate": 8},
+}
+
+
+@pytest.mark.parametrize("settings", WORK.values(), ids=WORK)
+def test_progress_rises_evenly_from_0_to_1(
+    context: lightband.Context, scene: lightband.Scene, settings: dict[str, float | str]
+) -> None:
+    """The fraction is that of time. Half a frame's error is what a first guess of the rounds to come may be wrong by."""
+    frame = context.frame(160, 160, **settings)
+    frame.render(scene)  # makes the tables and measures the device
     fractions: list[float] = []
-    long_frame.render(scene, progress=fractions.append)
-    assert len(fractions) >= 3
-    assert fractions == sorted(fractions)
-    assert 0 <= fractions[0] and fractions[-1] <= 1
+    times: list[float] = []
+
+    def note(fraction: float) -> None:
+        fractions.append(fraction)
+        times.append(time.perf_counter())
+
+    frame.render(scene, progress=note)
     assert all(type(fraction) is float for fraction in fractions)
+    assert fractions[0] == 0 and fractions[-1] == 1 and len(fractions) >= 5
+    assert all(early < late for early, late in zip(fractions, fractions[1:]))
+    elapsed = (np.array(times) - times[0]) / (times[-1] - times[0])
+    assert np.abs(elapsed - fractions).max() < 0.5
 
 
 def test_progress_runs_on_the_calling_thread(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
