@@ -41,7 +41,9 @@ constexpr const char* whole_kinds = "iu";
 
 // An ndarray of one of these kinds of elements; expected says in a message what else it must be.
 py::array to_ndarray(const Given& given, const std::string& kinds, const std::string& expected) {
-    if (given.value.is_none() || PyUnicode_Check(given.value.ptr()) || PyBytes_Check(given.value.ptr())) {
+    // NumPy would take a bytearray for whole numbers.
+    if (given.value.is_none() || PyUnicode_Check(given.value.ptr()) || PyBytes_Check(given.value.ptr()) ||
+        PyByteArray_Check(given.value.ptr())) {
         given.refuse_type(expected);
     }
     if (hides_elements(given.value)) {

@@ -167,11 +167,12 @@ void bind_material_makers(ContextClass& type) {
 Raises FileError when the file cannot be read, FormatError when it is no MERL file.)");
     define(type, "builtin_brdf(self, name)", &builtin_brdf, R"(A material that the library computes itself.
 
-lightband.builtin_materials() lists the names. Computed at first use (about a second), then kept in the cache folder.)");
+lightband.builtin_materials() lists the names. Computed at first use (about a second), then kept in the cache
+folder.)");
     define(type, "table_brdf(self, table)", &table_brdf, R"(A measured reflectance from an array.
 
-table: 90 x 90 x 180 x 3 values in 1/steradian, cells (theta_half [quadratic], theta_diff, phi_diff) as in a MERL file,
-RGB last. A negative value means "not measured". Copied.)");
+table: 90 x 90 x 180 x 3 values in 1/steradian, cells (theta_half [quadratic], theta_diff, phi_diff) as in a
+MERL file, RGB last. A negative value means "not measured". Copied.)");
     define(type, "lambert(self, albedo)", &lambert, R"(A diffuse reflectance, albedo / pi.
 
 albedo: RGB or one number for all three, each in [0, 1].)");
@@ -194,7 +195,8 @@ positions: vertices x 3, metres.
 indices: triangles x 3, whole numbers below the number of vertices.
 normals: vertices x 3; None: computed, area-weighted.
 texcoords: vertices x 2; None: none.)");
-    define(type, "builtin_mesh(self, name, resolution=0)", &builtin_mesh, R"(A computed shape about one metre across: "sphere", "plane", "torus", "knot" or "blob".
+    define(type, "builtin_mesh(self, name, resolution=0)", &builtin_mesh,
+           R"(A computed shape about one metre across: "sphere", "plane", "torus", "knot" or "blob".
 
 resolution: segments around, 8 to 2048; 0: 256.)");
     define(type, "scene(self)", &scene, "An empty scene.");

@@ -29,37 +29,41 @@ constexpr Field fields[] = {
     {"bandwidth_spatial", "float32, height x width: cycles/metre at the surface (first component of eq. 5)."},
     {"bandwidth_angular", "float32, height x width: cycles/radian at the eye (second component of eq. 5)."},
     {"bandwidth_image", "float32, height x width: cycles/pixel, at most 0.5 (eq. 6)."},
-    {"bandwidth_reflected",
-     "float32, height x width: cycles/radian of the mirror direction, of the light that the lobe keeps; larger towards grazing angles. "
-     "0 in a frame that did not interpolate over directions."},
-    {"level",
-     "uint8, height x width: log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)."},
-    {"cell_level",
-     "uint8, height x width: log2 of the cells along a side of the square of mirror directions that the pixel asks for; 15 where it asks "
-     "for finer ones than there are. 0 in a frame that did not interpolate over directions."},
+    {"bandwidth_reflected", R"(float32, height x width: cycles/radian of the mirror direction, of the light that the lobe keeps.
+
+Larger towards grazing angles. 0 in a frame that did not interpolate over directions.)"},
+    {"level", "uint8, height x width: log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)."},
+    {"cell_level", R"(uint8, height x width: log2 of the cells that the pixel asks for.
+
+They lie along a side of the square of mirror directions; 15 where it asks for finer ones than there are. 0 in a
+frame that did not interpolate over directions.)"},
     {"shaded", "uint8, height x width: 1 where the integral was computed; 0: interpolated, or nothing seen."},
     {"sample_count", "uint32, height x width: light samples drawn, by one of the frames that are accumulated."},
-    {"error", "float32, height x width: error of the luminance L that is expected here, over L + 0.01 of the frame's mean L."},
-    {"variance_predicted",
-     "float32, height x width: radiance^2, predicted variance of one light sample's luminance, by the setting \"variance\" "
-     "(eq. 9 where that is \"printed\")."},
-    {"variance_measured",
-     "float32, height x width: radiance^2, the same from the samples drawn; 0 where fewer than two were drawn."},
-    {"level_pyramid",
-     "uint8, rows x width: the levels' min pyramid, level below level; 255 where nothing is seen. pyramid() takes it "
-     "apart."},
-    {"variance_pyramid",
-     "float32, rows x width: the relative variances' max pyramid, level below level; pyramid() takes it apart."},
+    {"error", R"(float32, height x width: error of the luminance L that is expected here.
+
+It is relative to L + 0.01 of the frame's mean L.)"},
+    {"variance_predicted", R"(float32, height x width: radiance^2, predicted variance of one light sample's luminance.
+
+By the setting "variance" (eq. 9 where that is "printed").)"},
+    {"variance_measured", R"(float32, height x width: radiance^2, variance of one light sample's luminance, from the samples drawn.
+
+0 where fewer than two were drawn.)"},
+    {"level_pyramid", R"(uint8, rows x width: the levels' min pyramid, level below level; 255 where nothing is seen.
+
+pyramid() takes it apart.)"},
+    {"variance_pyramid", R"(float32, rows x width: the relative variances' max pyramid, level below level.
+
+pyramid() takes it apart.)"},
 };
 
 constexpr const char* frame_documentation = R"(A picture's size and settings; renders scenes and holds their fields.
 
 Made by Context.frame. Settings are read and written by name: frame["samples"] = 64.
 
-The fields of the last frame are arrays (frame.color, frame.depth, ...). Rows run top-down; pixels that see no mesh hold 0
-unless said otherwise. An array is read-only and shows the library's memory without a copy; it stays as it is when the
-frame renders again or is deleted. Each access reads the field back from the device anew: keep the array. Equations:
-Bagher et al. 2013.)";
+The fields of the last frame are arrays (frame.color, frame.depth, ...). Rows run top-down; pixels that see no mesh
+hold 0 unless said otherwise. An array is read-only and shows the library's memory without a copy; it stays as it is
+when the frame renders again or is deleted. Each access reads the field back from the device anew: keep the array.
+Equations: Bagher et al. 2013.)";
 
 py::array buffer(const Frame& self, const std::string& name) {
     return to_array(name, in_library([&] { return self.handle.map(name); }));
@@ -254,12 +258,13 @@ void bind_frame(py::module_& module) {
         type, "height", +[](const Frame* self) { return self->height; }, "Pixels.");
     define(type, "render(self, scene, progress=None)", &render, R"(Renders the scene.
 
-progress: called between parts of the frame with the fraction of its work that is done, which rises from 0 to 1. When it
-    returns lightband.CANCEL, the call raises Cancelled; what it raises, the call raises. Any other value is ignored. It
-    must not call the library.
+progress: called between parts of the frame with the fraction of the call's time that has passed, which rises
+    from 0 to 1; an estimate where the number of rounds is not known beforehand. When it returns lightband.CANCEL,
+    the call raises Cancelled; what it raises, the call raises. Any other value is ignored. It must not call the
+    library.
 
-Other threads run meanwhile, and Ctrl-C raises KeyboardInterrupt at the next part. After any failure the frame holds
-what it held before.)");
+Other threads run meanwhile, and Ctrl-C raises KeyboardInterrupt at the next part. After any failure the frame
+holds what it held before.)");
     bind_settings(type);
     bind_results(type);
     define(

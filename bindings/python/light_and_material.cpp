@@ -81,8 +81,9 @@ void bind_light_and_material(py::module_& module) {
         "float32, height x width x 3: linear RGB as loaded, rows top-down.");
     define_property(
         environment, "bandwidth", +[](const Environment& self) { return field(self, "bandwidth"); },
-        "float32, size x size: cycles/radian per direction, on the octahedral square (docs/conventions.md); it ends "
-        "at what its texels, or the map's, can show.");
+        R"(float32, size x size: cycles/radian per direction, on the octahedral square (docs/conventions.md).
+
+It ends at what its texels, or the map's, can show.)");
     define(
         environment, "__repr__(self)",
         +[](const Environment* self) { return describe("Environment", *self, self->description); },

@@ -126,8 +126,8 @@ void bind_closing(const py::class_<Object, std::shared_ptr<Object>>& type) {
     refuse_pickling<Object>(type);
     define(
         type, "close(self)", +[](Object* self) { release_outside(std::move(self->handle)); },
-        "Releases the handle now instead of when the object is collected. Calls on it then raise InvalidHandle; "
-        "objects made from it live on.");
+        "Releases the handle now instead of when the object is collected.\n\n"
+        "Calls on it then raise InvalidHandle; objects made from it live on.");
     define(
         type, "__enter__(self)", +[](const Given& self) { return self.value; }, "The object itself.");
     define(

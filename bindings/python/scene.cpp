@@ -106,9 +106,10 @@ Made by Context.scene. It needs an environment and a camera before it can be ren
            R"(Adds a mesh with its material; returns the instance's number, counted from 0.
 
 transform: object to world, a 3x4 or 4x4 affine matrix; None: identity.
-double_sided: False: only the front of its triangles is drawn, from which their vertices run counter-clockwise in the mesh's own
-space; a mirroring transform does not change which side that is. Of a closed surface that is wound outwards, seen from outside
-and not cut by the near plane nobody sees the back; about half of its triangles are then not drawn.
+double_sided: False: only the front of its triangles is drawn, from which their vertices run counter-clockwise
+    in the mesh's own space; a mirroring transform does not change which side that is. Of a closed surface that is
+    wound outwards, seen from outside and not cut by the near plane nobody sees the back; about half of its
+    triangles are then not drawn.
 The array frame.material holds the number plus one. At most 254 instances.)");
     define(scene, "set_transform(self, index, transform)", &set_transform,
            "Replaces the transform of an instance.");

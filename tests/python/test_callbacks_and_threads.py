@@ -7,9 +7,11 @@ import copy
 import gc
 import pickle
 import signal
+import subprocess
 import sys
 import threading
 import time
+import weakref
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -279,6 +281,43 @@ def test_objects_may_die_in_a_callback(
         kept.albedo(0)
 
 
+class Holder:
+    """Holds itself, so that only the garbage collector frees it."""
+
+    def __init__(self, held: object) -> None:
+        self.held = held
+        self.itself = self
+
+
+def test_the_collector_may_free_objects_in_a_callback(
+    context: lightband.Context,
+    long_frame: lightband.Frame,
+    scene: lightband.Scene,
+    unraisable: list[BaseException | None],
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    """They are released when the render call is over: inside a callback the library would refuse it."""
+    made: list[weakref.ref[Holder]] = []
+
+    def report(_: float) -> None:
+        if len(made) < 40:
+            return
+        gc.collect()
+        assert all(reference() is None for reference in made)
+
+    gc.disable()
+    try:
+        for _ in range(20):
+            holders = Holder(context.frame(64, 64)), Holder(context.builtin_mesh("sphere", 16))
+            made += map(weakref.ref, holders)
+            del holders
+        run_to_the_end(lambda: long_frame.render(scene, progress=report))
+    finally:
+        gc.enable()
+    assert long_frame.stats.covered_pixels > 0
+    assert not unraisable and capfd.readouterr() == ("", "")
+
+
 def test_an_array_may_die_in_a_callback(long_frame: lightband.Frame, scene: lightband.Scene) -> None:
     long_frame.render(scene)
     arrays = [long_frame.color]
@@ -309,6 +348,131 @@ def test_the_log_lives_as_long_as_what_may_call_it() -> None:
     assert mesh.stats.triangles > 0
     del mesh
     gc.collect()
+
+
+class Viewer:
+    """Keeps what makes returns of its context, whose log is a method of its own."""
+
+    def __init__(self, keep: Callable[[lightband.Context], object]) -> None:
+        self.lines: list[str] = []
+        self.kept = keep(lightband.Context(device="software", cache_path="", log=self.hear))
+
+    def hear(self, line: str) -> None:
+        self.lines.append(line)
+
+
+class Window(lightband.Context):
+    """Is the context that its log belongs to."""
+
+    def __init__(self) -> None:
+        super().__init__("software", "", self.hear)
+
+    def hear(self, line: str) -> None:
+        pass
+
+
+def scene_in(context: lightband.Context) -> lightband.Scene:
+    scene = context.scene()
+    scene.environment = context.environment(np.ones((2, 4, 3)))
+    return scene
+
+
+KEPT: dict[str, Callable[[], object]] = {
+    "Context": lambda: Viewer(lambda context: context),
+    "Brdf": lambda: Viewer(lambda context: context.lambert(0.5)),
+    "Environment": lambda: Viewer(lambda context: context.environment(np.ones((2, 4, 3)))),
+    "Mesh": lambda: Viewer(lambda context: context.builtin_mesh("plane", 8)),
+    "Scene": lambda: Viewer(scene_in),
+    "environment of a scene": lambda: Viewer(lambda context: scene_in(context).environment),
+    "Frame": lambda: Viewer(lambda context: context.frame(4, 4)),
+    "settings": lambda: Viewer(lambda context: context.frame(4, 4).settings),
+    "array": lambda: Viewer(lambda context: context.environment(np.ones((2, 4, 3))).radiance),
+    "subclass": Window,
+}
+
+
+@pytest.mark.parametrize("make", KEPT.values(), ids=KEPT)
+def test_a_log_of_the_holder_keeps_nothing_alive(make: Callable[[], object], unraisable: list[object]) -> None:
+    seen = weakref.ref(make())
+    gc.collect()
+    assert seen() is None
+    assert not unraisable
+
+
+def test_what_lost_its_log_is_silent() -> None:
+    viewer = Viewer(lambda context: context)
+    seen, mesh = weakref.ref(viewer), viewer.kept.builtin_mesh("plane", 8)  # type: ignore[attr-defined]
+    del viewer
+    gc.collect()
+    assert seen() is not None, "the mesh may still speak to it"
+    del mesh
+    gc.collect()
+    assert seen() is None
+
+
+def test_a_log_without_weak_references_is_heard() -> None:
+    class Slotted:
+        __slots__ = ("lines",)
+
+        def __init__(self) -> None:
+            self.lines: list[str] = []
+
+        def __call__(self, line: str) -> None:
+            self.lines.append(line)
+
+    log = Slotted()
+    lightband.Context(device="software", cache_path="", log=log).close()
+    assert log.lines
+
+
+ENDING = """
+import sys, threading, time
+import lightband
+
+class SlowToDie:
+    def __del__(self, sleep=time.sleep):
+        sleep(0.5)
+
+context = lightband.Context(device="software", cache_path="")
+scene = context.scene()
+scene.environment = context.environment([[[1, 1, 1]] * 8] * 4)
+scene.camera(eye=(0, 0, 2), target=(0, 0, 0))
+scene.add(context.builtin_mesh("sphere", 16), context.lambert(0.5))
+inside = threading.Event()
+
+def render():
+    frame = context.frame(16, 16, samples=16)
+    while True:
+        frame.render(scene)
+        inside.set()
+
+def progress():
+    frame = context.frame(16, 16, samples=16)
+    while True:
+        frame.render(scene, lambda done: inside.set())
+
+def log():
+    while True:
+        lightband.Context(device="software", cache_path="", log=lambda message: inside.set())
+
+def small_calls():
+    while True:
+        context.lambert(0.5).albedo(0)
+        inside.set()
+
+threading.Thread(target=globals()[sys.argv[1]], daemon=True).start()
+inside.wait()
+time.sleep(0.1)
+late = SlowToDie()
+sys.exit(7)
+"""
+
+
+@pytest.mark.parametrize("work", ["render", "progress", "log", "small_calls"])
+def test_a_process_ends_while_a_thread_is_inside(work: str) -> None:
+    """With its own status: Python unwinds such a thread, and C++ aborts where a noexcept function is unwound."""
+    outcome = subprocess.run([sys.executable, "-c", ENDING, work], capture_output=True, text=True, timeout=PATIENCE)
+    assert (outcome.returncode, outcome.stdout, outcome.stderr) == (7, "", "")
 
 
 def test_an_exception_of_the_log_is_unraisable(unraisable: list[BaseException | None]) -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, MutableMapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final, Literal, SupportsFloat, overload
 
 from . import _lightband
 
 if TYPE_CHECKING:
-    from ._lightband import Frame
+    from ._lightband import Frame, _Choice, _Integer, _Real
 
 
 class Answer(Enum):
@@ -28,97 +28,122 @@ CANCEL: Final = Answer.CANCEL
 
 @dataclass(frozen=True)
 class Setting:
-    """One row of the table of settings."""
+    """One row of the table of settings.
+
+    name: as in frame[name].
+    type: "integer", "real" or "choice".
+    minimum, maximum: the least and the greatest number it can be; None for a choice.
+    default: its value in a new frame.
+    choices: the names it can be; empty for a number.
+    documentation: what it means, with its unit.
+    """
 
     name: str
     type: Literal["integer", "real", "choice"]
     minimum: float | None
-    """None for a choice."""
     maximum: float | None
-    """None for a choice."""
     default: float | str
     choices: tuple[str, ...]
-    """Empty for a number."""
     documentation: str
 
 
 @dataclass(frozen=True)
 class FrameStats:
-    """Counts and times of a rendered frame."""
+    """Counts and times of a rendered frame.
+
+    width, height: pixels of the picture.
+    frames: frames averaged; the setting "accumulate".
+    covered_pixels: pixels that see a mesh.
+    shaded_pixels: of them, those whose integral was computed; the others were interpolated.
+    samples: light samples that the picture is made of, counted by the shaders themselves, all frames. Those that were drawn anew, of
+        probes and of audits are not among them.
+    saturated_pixels: covered pixels whose predicted bandwidth reached 0.5 cycles per pixel.
+    bent_normals: covered pixels whose shading normal faced away and was turned to the eye.
+    device_bytes: bytes of device memory held by the scene and this frame.
+    milliseconds: milliseconds of the whole render call.
+    bandwidth_milliseconds: of it, everything beside shading and geometry (bandwidth, audits, lists, interpolation, estimate).
+    shading_milliseconds: of it, the shading integral.
+    error: relative error of the frame (1: as large as the picture) as the frame itself estimates it: root of the squares of the
+        parts noise, interpolation and bias. The field frame.error holds it pixel by pixel.
+    noise_error: the part of it that more samples would lessen.
+    interpolation_error: the part of it that finer levels would lessen.
+    capped_pixels: pixels whose samples reached the setting "max_samples"; they may have deserved more.
+    rounds: rounds of shading; 1 where neither an error nor a time was asked for.
+    audited_pixels: pixels that were also shaded with more samples, to know how far the others err; 0 where the setting "sampler"
+        has no bias or a "time_budget" leaves no time for them.
+    bias_error: the part of error that an audit found beyond the other two: what a biased sampler gets wrong in the same way at
+        every seed. More samples lessen it.
+    sampler_replaced: whether samples without bias contradicted the sampler "cut", and the picture was drawn by another (frame.plan
+        says which).
+    """
 
     width: int
     height: int
     frames: int
-    """Frames averaged: the setting "accumulate"."""
     covered_pixels: int
-    """Pixels that see a mesh."""
     shaded_pixels: int
-    """Those whose integral was computed; the others were interpolated."""
     samples: int
-    """Light samples that the picture is made of, counted by the shaders themselves, all frames."""
     saturated_pixels: int
-    """Covered pixels whose predicted bandwidth reached 0.5 cycles per pixel."""
     bent_normals: int
-    """Covered pixels whose shading normal faced away and was turned to the eye."""
     device_bytes: int
-    """Device memory held by the scene and this frame."""
     milliseconds: float
-    """The whole render call."""
     bandwidth_milliseconds: float
-    """Of it: everything beside shading and geometry (bandwidth, audits, lists, interpolation, estimate)."""
     shading_milliseconds: float
-    """Of it: the shading integral."""
     error: float
-    """Relative error of the frame, as the frame itself estimates it; the field "error" holds it pixel by pixel."""
     noise_error: float
-    """The part of it that more samples would lessen."""
     interpolation_error: float
-    """The part of it that finer levels would lessen; the squares of it, noise_error and bias_error add up to that of error."""
     capped_pixels: int
-    """Pixels whose samples reached the setting "max_samples"; they may have deserved more."""
     rounds: int
-    """Rounds of shading: 1 where neither an error nor a time was asked for."""
     audited_pixels: int
-    """Pixels that were also shaded with more samples, to know how far the others err; 0: no bias, or no time."""
     bias_error: float
-    """The part of error that an audit found beyond the other two: a biased sampler's, and what replicates and witnesses do not tell."""
     sampler_replaced: bool
-    """Samples without bias contradicted the sampler "cut"; the picture was drawn by another (frame.plan says which)."""
 
 
 @dataclass(frozen=True)
 class MeshStats:
-    """Size of a mesh."""
+    """Size of a mesh.
+
+    vertices: their number.
+    triangles: number of those kept.
+    dropped_triangles: number of those of zero area, which are left out.
+    bounds_min, bounds_max: opposite corners of the box around the mesh, metres.
+    """
 
     vertices: int
     triangles: int
-    """Those kept."""
     dropped_triangles: int
-    """Those of zero area."""
     bounds_min: tuple[float, float, float]
-    """Metres."""
     bounds_max: tuple[float, float, float]
-    """Metres."""
 
 
 class Settings(MutableMapping[str, "float | str"]):
-    """The settings of a frame: reads and writes go to the frame at once."""
+    """The settings of a frame: reads and writes go to the frame at once. Deleting one restores its default."""
 
     def __init__(self, frame: Frame) -> None:
         self._frame = frame
         self._defaults = {setting.name: setting.default for setting in _lightband.settings()}
 
-    def __getitem__(self, name: str) -> float | str:
+    @overload
+    def __getitem__(self, name: _Integer) -> int: ...
+    @overload
+    def __getitem__(self, name: _Real) -> float: ...
+    @overload
+    def __getitem__(self, name: _Choice) -> str: ...
+    @overload
+    def __getitem__(self, name: str) -> int | float | str: ...
+    def __getitem__(self, name: str) -> int | float | str:
+        """The value of a setting; KeyError for an unknown name."""
         if name not in self._defaults:
             raise KeyError(name)
         return self._frame[name]
 
-    def __setitem__(self, name: str, value: float | str) -> None:
-        self._frame[name] = value
+    def __setitem__(self, name: str, value: SupportsFloat | str) -> None:
+        """Sets a setting: a number or, for a choice, its name."""
+        self._frame[name] = value  # type: ignore[call-overload]  # the frame refuses what does not fit
 
     def __delitem__(self, name: str) -> None:
-        """Restores the default."""
-        self._frame[name] = self._defaults[name]
+        """Restores the default; KeyError for an unknown name."""
+        self[name] = self._defaults[name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._defaults)
