@@ -1,6 +1,7 @@
 #include "arrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -81,22 +82,22 @@ void require_shape(const Given& given, const py::array& array, const std::vector
     }
 }
 
-// Packs as float32. A value that becomes infinite by that is refused here: the library would speak of infinity.
+// Packs as float32. A value that becomes infinite by that is refused here: the library would speak of infinity. Calls no
+// Python code, in which Python's end could stop this thread amid objects of Python (call.h).
 FloatArray pack_floats(const Given& given, const py::array& array) {
-    const py::module_ numpy = py::module_::import("numpy");
-    FloatArray packed;
-    {
-        const py::object quiet = numpy.attr("errstate")(py::arg("over") = "ignore", py::arg("under") = "ignore");
-        quiet.attr("__enter__")();
-        packed = py::array_t<float, py::array::c_style | py::array::forcecast>(array);
-        quiet.attr("__exit__")(py::none(), py::none(), py::none());
+    if (array.dtype().kind() == 'f' && array.itemsize() <= static_cast<py::ssize_t>(sizeof(float))) {
+        return py::array_t<float, py::array::c_style | py::array::forcecast>(array);
     }
-    if (array.itemsize() > static_cast<py::ssize_t>(sizeof(float))) {
-        const py::object beyond = numpy.attr("isinf")(packed) & numpy.attr("isfinite")(array);
-        if (py::cast<bool>(beyond.attr("any")())) {
-            const py::object value = array.attr("flat")[numpy.attr("argmax")(beyond)];
-            given.refuse_value("holds " + py::cast<std::string>(py::str(value)) +
-                               ", which does not fit a 32-bit float, at most 3.4e38");
+    const py::array_t<double, py::array::c_style | py::array::forcecast> wide(array);
+    FloatArray packed(shape_of(array));
+    const double* const from = wide.data();
+    float* const to = packed.mutable_data();
+    for (py::ssize_t i = 0; i < wide.size(); ++i) {
+        to[i] = static_cast<float>(from[i]);
+        if (std::isinf(to[i]) && std::isfinite(from[i])) {
+            std::ostringstream value;
+            value << from[i];
+            given.refuse_value("holds " + value.str() + ", which does not fit a 32-bit float, at most 3.4e38");
         }
     }
     return packed;
