@@ -1,10 +1,27 @@
 #include "frame/plan.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
+#include <limits>
+
+#include "base/text.h"
 
 namespace lightband {
+namespace {
+
+// Columns: what is shorter is filled with blanks.
+std::string at_left(std::string_view text, size_t width) {
+    return std::string(text).append(width - std::min(width, text.size()), ' ');
+}
+std::string at_right(std::string_view text, size_t width) {
+    return std::string(width - std::min(width, text.size()), ' ').append(text);
+}
+
+std::string two_decimals(double value) {
+    char digits[std::numeric_limits<double>::max_exponent10 + 8];  // of the largest number, with sign, point and decimals
+    return {digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 2).ptr};
+}
+
+}  // namespace
 
 void Plan::finished(const char* name, const std::string& reason, uint64_t bytes, uint64_t invocations, const char* unit) {
     gl_.Finish();
@@ -35,15 +52,13 @@ double Plan::milliseconds_of(const std::vector<std::string>& names) const {
 }
 
 std::string Plan::text() const {
-    std::ostringstream out;
-    out << std::fixed;
-    for (const Pass& pass : passes_)
-        out << std::left << std::setw(12) << pass.name << std::right << std::setw(10) << std::setprecision(2)
-            << pass.milliseconds << " ms " << std::setw(9) << std::setprecision(2) << double(pass.bytes) / 1e6 << " MB "
-            << std::setw(12) << pass.invocations << ' ' << std::left << std::setw(8) << pass.unit << "  " << pass.reason << '\n';
-    out << std::left << std::setw(12) << "total" << std::right << std::setw(10) << std::setprecision(2)
-        << total_milliseconds() << " ms\n";
-    return out.str();
+    std::string out;
+    for (const Pass& pass : passes_) {
+        out += at_left(pass.name, 12) + at_right(two_decimals(pass.milliseconds), 10) + " ms ";
+        out += at_right(two_decimals(double(pass.bytes) / 1e6), 9) + " MB ";
+        out += at_right(lightband::text(pass.invocations), 12) + ' ' + at_left(pass.unit, 8) + "  " + pass.reason + '\n';
+    }
+    return out + at_left("total", 12) + at_right(two_decimals(total_milliseconds()), 10) + " ms\n";
 }
 
 }  // namespace lightband

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "io/image_file.h"
 
@@ -34,8 +33,8 @@ void append_channels(const std::string& field, const HostArray& array, std::vect
 
 void save_exr(const Frame& frame, const std::string& path, const std::string& fields) {
     std::vector<io::NamedChannel> channels;
-    std::istringstream names(fields + ',');  // so that an empty last name is seen
-    for (std::string name; std::getline(names, name, ',');) {
+    for (const std::string_view piece : split(fields, ',')) {
+        const std::string name(piece);
         if (name.empty()) throw Error(LB_ERROR_INVALID_ARGUMENT, text("names \"", fields, "\" holds an empty field name"));
         const HostArray array = frame.field(name);
         if (array.shape[0] != frame.height())

@@ -91,9 +91,8 @@ bool is_software(const std::string& renderer) {
 }
 
 std::string hexadecimal(EGLint error) {
-    std::ostringstream out;
-    out << "EGL error 0x" << std::hex << error;
-    return out.str();
+    char digits[2 * sizeof error];
+    return "EGL error 0x" + std::string(digits, std::to_chars(digits, digits + sizeof digits, uint32_t(error), 16).ptr);
 }
 
 void* create_context(const EglApi& api, void* display) {

@@ -1,26 +1,25 @@
 #include "gl/shader_sources.h"
 
-#include <sstream>
-
 #include "base/error.h"
 
 namespace lightband::gl {
 namespace {
 
-const char* find(const std::string& file) {
+const char* find(std::string_view file) {
     for (unsigned i = 0; i < embedded_shader_count; ++i)
         if (file == embedded_shaders[i].file) return embedded_shaders[i].text;
     throw Error(LB_ERROR_INTERNAL, text("there is no shader ", file));
 }
 
-void append(const std::string& file, std::string* out) {
-    std::istringstream lines(find(file));
-    for (std::string line; std::getline(lines, line);) {
-        const std::string directive = "#include \"";
-        if (line.compare(0, directive.size(), directive) == 0)
-            append(line.substr(directive.size(), line.find('"', directive.size()) - directive.size()), out);
-        else
-            *out += line + '\n';
+void append(std::string_view file, std::string* out) {
+    constexpr std::string_view directive = "#include \"";
+    for (std::string_view line : split(find(file), '\n')) {
+        if (line.substr(0, directive.size()) == directive) {
+            line.remove_prefix(directive.size());
+            append(line.substr(0, line.find('"')), out);
+        } else {
+            out->append(line).push_back('\n');
+        }
     }
 }
 
@@ -28,8 +27,8 @@ void append(const std::string& file, std::string* out) {
 
 std::string shader_source(const std::string& file, const std::string& definitions) {
     std::string source = "#version 450 core\n";
-    std::istringstream lines(definitions);
-    for (std::string line; std::getline(lines, line);) source += "#define " + line + '\n';
+    for (const std::string_view line : split(definitions, '\n'))
+        if (!line.empty()) source.append("#define ").append(line).push_back('\n');
     append(file, &source);
     return source;
 }

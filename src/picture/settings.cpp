@@ -95,23 +95,15 @@ int find(const std::string& name) {
     throw Error(LB_ERROR_INVALID_ARGUMENT, text("there is no setting \"", name, "\"; there are ", names));
 }
 
-std::vector<std::string> split(const std::string& choices) {
-    std::vector<std::string> parts(1);
-    for (char c : choices) {
-        if (c == '|')
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    }
-    return parts;
-}
-
 // choices split once; the strings that lb_frame_get_choice hands out live here.
 const std::vector<std::string>& choices_of(int place) {
     static const std::vector<std::vector<std::string>> all = [] {
         std::vector<std::vector<std::string>> lists;
-        for (const lb_setting_info& setting : table)
-            lists.push_back(setting.choices != nullptr ? split(setting.choices) : std::vector<std::string>());
+        for (const lb_setting_info& setting : table) {
+            std::vector<std::string>& list = lists.emplace_back();
+            if (setting.choices == nullptr) continue;
+            for (const std::string_view choice : split(setting.choices, '|')) list.emplace_back(choice);
+        }
         return lists;
     }();
     return all[size_t(place)];
