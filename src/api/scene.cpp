@@ -5,6 +5,7 @@
 #include "io/image_file.h"
 #include "io/merl.h"
 #include "materials/builtin_materials.h"
+#include "materials/builtin_models.h"
 
 using namespace lightband;
 using namespace lightband::api;
@@ -137,11 +138,10 @@ lb_result lb_brdf_builtin(lb_context context, const char* name, lb_brdf* brdf) {
     });
 }
 
-uint32_t lb_brdf_builtin_count(void) { return uint32_t(builtin_material_names().size()); }
+uint32_t lb_brdf_builtin_count(void) { return uint32_t(builtin_models.size()); }
 
 const char* lb_brdf_builtin_name(uint32_t index) {
-    const auto& names = builtin_material_names();
-    return index < names.size() ? names[index] : nullptr;
+    return index < builtin_models.size() ? builtin_models[index].name : nullptr;
 }
 
 lb_result lb_brdf_create_table(lb_context context, const float* values, size_t count, lb_brdf* brdf) {

@@ -54,9 +54,11 @@ const MapPoints& Light::points(Lookup lookup, uint32_t seed) const {
     if (!points_.points || points_key_ != std::pair(lookup, seed)) {
         std::vector<MapPoint> points = draw_map_points(map_, sampler_, lookup, seed, MapPoints::count);
         const std::vector<MapCluster> clusters = cluster_points(&points, MapPoints::cluster_count);
-        points_.clusters = gl::Buffer(device_->gl(), clusters.size() * sizeof(MapCluster), clusters.data());
-        points_.points = gl::Buffer(device_->gl(), points.size() * sizeof(MapPoint), points.data());
-        points_.texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, points_.points);
+        MapPoints made;  // replaces the former ones once it is complete
+        made.clusters = gl::Buffer(device_->gl(), clusters.size() * sizeof(MapCluster), clusters.data());
+        made.points = gl::Buffer(device_->gl(), points.size() * sizeof(MapPoint), points.data());
+        made.texture = gl::Texture::of_buffer(device_->gl(), GL_RGBA32F, made.points);
+        points_ = std::move(made);
         points_key_ = {lookup, seed};
     }
     return points_;

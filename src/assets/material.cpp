@@ -83,8 +83,9 @@ void Material::bind_importance() const {
         std::vector<float> all = importance.values;
         all.insert(all.end(), importance.peaks.begin(), importance.peaks.end());
         all.insert(all.end(), importance.albedos.begin(), importance.albedos.end());
-        importance_ = gl::Buffer(device_->gl(), all.size() * sizeof(float), all.data());
-        importance_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, importance_);
+        gl::Buffer made(device_->gl(), all.size() * sizeof(float), all.data());
+        importance_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, made);
+        importance_ = std::move(made);  // last: where it is there, its texture is
     }
     device_->gl().BindTextureUnit(12, importance_texture_.name());
 }

@@ -78,21 +78,23 @@ WaveletBands analyse(const SquareImage& image, const Border& border) {
 }
 
 BandLimit band_limit(const double* maxima, int levels, double local_mean, BandRule rule) {
-    std::vector<double> weight(static_cast<size_t>(levels));
-    double largest = 0, total = 0;
-    for (int k = 0; k < levels; ++k) {
+    // Called for each of millions of texels: it takes no memory.
+    const auto weight = [&](int k) {
         // An orthonormal coefficient of level k + 1 carries 2^(k+1) times the amplitude.
         const double floor = rounding_floor * std::ldexp(local_mean, k + 1);
         const double value = maxima[k] > floor ? maxima[k] : 0;
-        weight[size_t(k)] = rule == BandRule::sum ? value : value * value;
-        largest = std::max(largest, weight[size_t(k)]);
-        total += weight[size_t(k)];
+        return rule == BandRule::sum ? value : value * value;
+    };
+    double largest = 0, total = 0;
+    for (int k = 0; k < levels; ++k) {
+        largest = std::max(largest, weight(k));
+        total += weight(k);
     }
     if (largest == 0) return {0, false};
     const double negligible = rule == BandRule::sum ? sum_threshold * largest : (1 - energy_percentile) * total;
     double finer = 0;
     for (int k = 0; k < levels; ++k) {
-        const double own = weight[size_t(k)];
+        const double own = weight(k);
         if (finer + own >= negligible) {
             const double part = rule == BandRule::sum ? 0 : (negligible - finer) / own;
             return {std::exp2(-1 - k - part), k == 0};

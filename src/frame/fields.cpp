@@ -124,13 +124,13 @@ std::vector<float> Frame::interpolation_shape() const {
     return shape;
 }
 
-const std::vector<Frame::FieldName>& Frame::field_names() {
-    static const std::vector<FieldName> names = {
+const std::array<Frame::FieldName, Frame::field_count>& Frame::field_names() {
+    static constexpr std::array<FieldName, field_count> names = {{
         {"color", false}, {"depth", false}, {"position", false}, {"normal", false}, {"curvature", true},
         {"material", false}, {"bandwidth_spatial", true}, {"bandwidth_angular", true}, {"bandwidth_image", true},
         {"bandwidth_reflected", true}, {"level", true}, {"cell_level", true}, {"shaded", false}, {"sample_count", false},
         {"error", false}, {"variance_predicted", true}, {"variance_measured", false}, {"level_pyramid", true},
-        {"variance_pyramid", true}};
+        {"variance_pyramid", true}}};
     return names;
 }
 
@@ -173,10 +173,13 @@ HostArray Frame::field(const std::string& name) const {
     if (known->predicted && !r.prediction)
         throw Error(LB_ERROR_INVALID_STATE, text("field ", name, ": a frame of method reference predicts nothing"));
     std::vector<uint8_t> material = read_bytes(r.gbuffer.material, pixels());
-    if (name == "material") return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "instance + 1", std::move(material));
-    if (known->predicted) return predicted(name, material);
-    if (name == "depth" || name == "position" || name == "normal") return seen(name, material);
-    return shaded(name, material);
+    HostArray array = known->predicted                                               ? predicted(name, material)
+                      : name == "depth" || name == "position" || name == "normal" ? seen(name, material)
+                      : name == "material"
+                          ? HostArray::of(LB_TYPE_UINT8, {height_, width_}, "instance + 1", std::move(material))
+                          : shaded(name, material);
+    device_->check("reading a field");  // where it failed, the array holds zeros
+    return array;
 }
 
 HostArray Frame::scalar(std::vector<float> values, const char* unit) const {

@@ -95,6 +95,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     finish(&job);
     meter.report(0);
     result_ = job.result;
+    pace_ = job.pace;
 }
 
 void Frame::finish(Job* job) const {
@@ -324,7 +325,7 @@ void Frame::measure(Job* job) const {
 }
 
 // False: see Frame::list.
-bool Frame::rounds(Job* job, const Forecast& forecast) {
+bool Frame::rounds(Job* job, const Forecast& forecast) const {
     Result& next = *job->result;
     next.stats.rounds = 0;
     job->scales.clear();
@@ -355,7 +356,7 @@ bool Frame::rounds(Job* job, const Forecast& forecast) {
         cost.other_milliseconds = cost.elapsed_milliseconds - begun - cost.shading_milliseconds;
         cost.made_programs = device_->program_count() > programs;
     } while (control.again(next.estimate, cost));
-    pace_ = control.pace();
+    job->pace = control.pace();
     return true;
 }
 

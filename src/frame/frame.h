@@ -1,6 +1,7 @@
 // A picture: from scene and settings to passes, run in order, and their fields.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -30,7 +31,7 @@ public:
     const gl::DevicePtr& device() const { return device_; }
     Settings settings;
 
-    // On any exception the former result stays.
+    // On any exception the frame stays as it was.
     void render(const Scene& scene, const Progress& progress);
 
     lb_frame_stats stats() const;
@@ -41,7 +42,8 @@ public:
         const char* name;
         bool predicted;  // absent from a reference frame
     };
-    static const std::vector<FieldName>& field_names();
+    static constexpr size_t field_count = 19;
+    static const std::array<FieldName, field_count>& field_names();
 
     uint32_t width() const { return width_; }
     uint32_t height() const { return height_; }
@@ -66,7 +68,7 @@ private:
     void replace_sampler(Job* job, double mean_radiance) const;
     Settings with_sampler(const char* sampler) const;
     bool audit_again(Job* job) const;
-    bool rounds(Job* job, const Forecast& forecast);
+    bool rounds(Job* job, const Forecast& forecast) const;
     void prepare_interpolation(Job* job, const Forecast& forecast) const;
     std::vector<ForeseenTile> foresee(Job* job, const Control& control, const Forecast& forecast) const;
     void choose_levels(Job* job, const Control& control, const Forecast& forecast, const passes::Witnesses& witnesses) const;

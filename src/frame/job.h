@@ -28,6 +28,7 @@ struct Frame::Job {
     Redrawing drawn{};                       // of the last round, as planned
     uint64_t samples = 0;                    // of the picture as it is
     RoundCost cost{};                        // of the last round
+    Pace pace{};                             // of the device, as the rounds have measured it
     std::vector<uint8_t> material{};         // instance + 1 of each pixel, where there is an audit
     Audit audit{};
     double audited = 0;                      // part of the pixels

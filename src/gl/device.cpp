@@ -25,21 +25,27 @@ std::string info_log(const Functions& gl, GLuint object, bool program) {
     return characters.data();
 }
 
+// One stage of a program while it is linked.
+class Shader : public Object {
+public:
+    Shader(const Functions& gl, GLenum stage) : Object(gl, gl.CreateShader(stage)) {}
+    ~Shader() { gl_->DeleteShader(name_); }
+};
+
 std::unique_ptr<Program> link(const Functions& gl, const std::string& name, const std::string& definitions,
                               const std::vector<std::pair<GLenum, std::string>>& stages) {
-    auto program = std::make_unique<Program>(gl, gl.CreateProgram());
+    auto program = std::make_unique<Program>(gl);
     for (const auto& [stage, file] : stages) {
         const std::string source = shader_source(file, definitions);
         const GLchar* characters = source.c_str();
-        const GLuint shader = gl.CreateShader(stage);
-        gl.ShaderSource(shader, 1, &characters, nullptr);
-        gl.CompileShader(shader);
+        const Shader shader(gl, stage);
+        gl.ShaderSource(shader.name(), 1, &characters, nullptr);
+        gl.CompileShader(shader.name());
         GLint compiled = GL_FALSE;
-        gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-        const std::string complaint = compiled ? "" : info_log(gl, shader, false);
-        if (compiled) gl.AttachShader(program->name(), shader);
-        gl.DeleteShader(shader);
-        if (!compiled) throw Error(LB_ERROR_DEVICE, text("shader ", file, " does not compile: ", complaint));
+        gl.GetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
+        if (!compiled)
+            throw Error(LB_ERROR_DEVICE, text("shader ", file, " does not compile: ", info_log(gl, shader.name(), false)));
+        gl.AttachShader(program->name(), shader.name());
     }
     gl.LinkProgram(program->name());
     GLint linked = GL_FALSE;
@@ -68,21 +74,22 @@ Device::~Device() {
     programs_.clear();
 }
 
-void Device::log(const std::string& message) const {
-    if (log_ != nullptr) log_(log_user_, message.c_str());
+void Device::log(const char* message) const {
+    if (log_ != nullptr) log_(log_user_, message);
 }
 
 const Program& Device::compute(const std::string& name, const std::string& definitions) {
-    std::unique_ptr<Program>& program = programs_[name + '\n' + definitions];
-    if (program == nullptr) program = link(gl(), name, definitions, {{GL_COMPUTE_SHADER, name + ".glsl"}});
-    return *program;
+    const std::string key = name + '\n' + definitions;
+    const auto known = programs_.find(key);
+    if (known != programs_.end()) return *known->second;
+    return *programs_.emplace(key, link(gl(), name, definitions, {{GL_COMPUTE_SHADER, name + ".glsl"}})).first->second;
 }
 
 const Program& Device::graphics(const std::string& name) {
-    std::unique_ptr<Program>& program = programs_[name];
-    if (program == nullptr)
-        program = link(gl(), name, "", {{GL_VERTEX_SHADER, name + ".vert"}, {GL_FRAGMENT_SHADER, name + ".frag"}});
-    return *program;
+    const auto known = programs_.find(name);
+    if (known != programs_.end()) return *known->second;
+    auto made = link(gl(), name, "", {{GL_VERTEX_SHADER, name + ".vert"}, {GL_FRAGMENT_SHADER, name + ".frag"}});
+    return *programs_.emplace(name, std::move(made)).first->second;
 }
 
 void Device::check(const char* where) const {

@@ -17,14 +17,23 @@ size_t texel_bytes(GLenum format) {
     }
 }
 
+template <typename... Parts>
+void check_storage(const Functions& gl, const Parts&... what) {
+    const GLenum error = gl.GetError();
+    if (error == GL_NO_ERROR) return;
+    if (error == GL_OUT_OF_MEMORY) throw Error(LB_ERROR_LIMIT, text("the device has no memory for ", what...));
+    throw Error(LB_ERROR_DEVICE, text("OpenGL error ", error, " where it was to make ", what...));
+}
+
 }  // namespace
 
-Buffer::Buffer(const Functions& gl, size_t bytes, const void* data) : bytes_(bytes) {
-    GLuint name = 0;
-    gl.CreateBuffers(1, &name);
+// Delegates to the default constructor, so that the destructor runs where the storage fails.
+Buffer::Buffer(const Functions& gl, size_t bytes, const void* data) : Buffer() {
     gl_ = &gl;
-    name_ = name;
-    gl.NamedBufferStorage(name, GLsizeiptr(bytes), data, GL_DYNAMIC_STORAGE_BIT);
+    bytes_ = bytes;
+    gl.CreateBuffers(1, &name_);
+    gl.NamedBufferStorage(name_, GLsizeiptr(bytes), data, GL_DYNAMIC_STORAGE_BIT);
+    check_storage(gl, "a buffer of ", bytes, " bytes");
 }
 
 Buffer::~Buffer() {
@@ -49,6 +58,7 @@ Texture Texture::image(const Functions& gl, GLenum format, uint32_t width, uint3
     texture.gl_ = &gl;
     gl.CreateTextures(GL_TEXTURE_2D, 1, &texture.name_);
     gl.TextureStorage2D(texture.name_, GLsizei(levels), format, GLsizei(width), GLsizei(height));
+    check_storage(gl, "a texture of ", width, " x ", height);
     texture.describe(width, height, levels, texel_bytes(format));
     return texture;
 }
@@ -58,6 +68,7 @@ Texture Texture::image_array(const Functions& gl, GLenum format, uint32_t width,
     texture.gl_ = &gl;
     gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &texture.name_);
     gl.TextureStorage3D(texture.name_, GLsizei(levels), format, GLsizei(width), GLsizei(height), GLsizei(layers));
+    check_storage(gl, "a texture of ", layers, " times ", width, " x ", height);
     texture.describe(width, height, levels, layers * texel_bytes(format));
     return texture;
 }
@@ -77,6 +88,7 @@ Texture Texture::of_buffer(const Functions& gl, GLenum format, const Buffer& buf
     texture.gl_ = &gl;
     gl.CreateTextures(GL_TEXTURE_BUFFER, 1, &texture.name_);
     gl.TextureBuffer(texture.name_, format, buffer.name());
+    check_storage(gl, "a texture of a buffer of ", buffer.bytes(), " bytes");
     return texture;
 }
 

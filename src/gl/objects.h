@@ -27,7 +27,8 @@ protected:
     GLuint name_ = 0;
 };
 
-// Immutable storage. data may be null (undefined contents).
+// Immutable storage. data may be null (undefined contents). Buffers and textures throw LB_ERROR_LIMIT where the device has no memory for
+// them: what is read from one without storage is zero, and a picture made of it is wrong.
 class Buffer : public Object {
 public:
     Buffer() = default;
@@ -94,7 +95,7 @@ public:
 
 class Program : public Object {
 public:
-    Program(const Functions& gl, GLuint name) : Object(gl, name) {}
+    explicit Program(const Functions& gl) : Object(gl, gl.CreateProgram()) {}
     ~Program();
     void set(const char* uniform, float value) const;
     void set(const char* uniform, int32_t value) const;

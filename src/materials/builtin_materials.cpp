@@ -57,7 +57,7 @@ void write_cache(const std::filesystem::path& file, const BrdfTable& table) {
 
 const BuiltinModel& find_model(const std::string& name) {
     std::string known;
-    for (const BuiltinModel& candidate : builtin_models()) {
+    for (const BuiltinModel& candidate : builtin_models) {
         if (name == candidate.name) return candidate;
         known += (known.empty() ? "" : ", ") + std::string(candidate.name);
     }
@@ -65,15 +65,6 @@ const BuiltinModel& find_model(const std::string& name) {
 }
 
 }  // namespace
-
-const std::vector<const char*>& builtin_material_names() {
-    static const std::vector<const char*> names = [] {
-        std::vector<const char*> list;
-        for (const BuiltinModel& candidate : builtin_models()) list.push_back(candidate.name);
-        return list;
-    }();
-    return names;
-}
 
 BrdfTable builtin_material(const std::string& name, const std::string& cache_path) {
     const std::unique_ptr<ReflectanceModel> model = find_model(name).make();

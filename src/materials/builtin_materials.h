@@ -2,14 +2,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "scene/brdf_table.h"
 
 namespace lightband {
-
-// Names in the order of the public index.
-const std::vector<const char*>& builtin_material_names();
 
 // Computes the table, or reads it from cache_path (a folder; empty: no cache) where an earlier call left it.
 // LB_ERROR_INVALID_ARGUMENT for an unknown name. Trouble with the cache is no error: the table is computed.

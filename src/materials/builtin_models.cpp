@@ -54,14 +54,11 @@ Model satin_white_plastic() {
 
 }  // namespace
 
-const std::vector<BuiltinModel>& builtin_models() {
-    static const std::vector<BuiltinModel> models = {
-        {"interference-paint", interference_paint}, {"red-car-paint", red_car_paint},
-        {"rough-gold", rough_gold},                 {"rough-nickel", rough_nickel},
-        {"blue-rubber", blue_rubber},               {"matte-fabric", matte_fabric},
-        {"rough-copper", rough_copper},             {"satin-white-plastic", satin_white_plastic},
-    };
-    return models;
-}
+const std::array<BuiltinModel, builtin_model_count> builtin_models = {{
+    {"interference-paint", interference_paint}, {"red-car-paint", red_car_paint},
+    {"rough-gold", rough_gold},                 {"rough-nickel", rough_nickel},
+    {"blue-rubber", blue_rubber},               {"matte-fabric", matte_fabric},
+    {"rough-copper", rough_copper},             {"satin-white-plastic", satin_white_plastic},
+}};
 
 }  // namespace lightband

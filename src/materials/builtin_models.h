@@ -1,8 +1,8 @@
 // The built-in materials by name, each with its constants (docs/materials.md).
 #pragma once
 
+#include <array>
 #include <memory>
-#include <vector>
 
 #include "materials/reflectance_model.h"
 
@@ -14,6 +14,7 @@ struct BuiltinModel {
 };
 
 // In the order of the public index.
-const std::vector<BuiltinModel>& builtin_models();
+constexpr size_t builtin_model_count = 8;
+extern const std::array<BuiltinModel, builtin_model_count> builtin_models;
 
 }  // namespace lightband

@@ -29,11 +29,10 @@ Vec3 random_direction(std::mt19937& random) {
 }
 
 void names_are_those_of_the_models(void**) {
-    const std::vector<const char*>& names = builtin_material_names();
     const char* const expected[] = {"interference-paint", "red-car-paint", "rough-gold",   "rough-nickel",
                                     "blue-rubber",        "matte-fabric",  "rough-copper", "satin-white-plastic"};
-    assert_int_equal(names.size(), std::size(expected));
-    for (size_t i = 0; i < names.size(); ++i) assert_string_equal(names[i], expected[i]);
+    assert_int_equal(builtin_models.size(), std::size(expected));
+    for (size_t i = 0; i < builtin_models.size(); ++i) assert_string_equal(builtin_models[i].name, expected[i]);
     expect_error(LB_ERROR_INVALID_ARGUMENT, {"\"gold\"", "interference-paint", "satin-white-plastic"},
                  [] { builtin_material("gold", ""); });
 }
@@ -42,7 +41,7 @@ void names_are_those_of_the_models(void**) {
 // multiply-adds may round the two sides differently.
 void models_are_reciprocal_finite_and_not_negative(void**) {
     constexpr double relative_rounding = 1e-12;
-    for (const BuiltinModel& material : builtin_models()) {
+    for (const BuiltinModel& material : builtin_models) {
         const auto model = material.make();
         std::mt19937 random(7);
         for (int i = 0; i < 20000; ++i) {
@@ -82,7 +81,7 @@ Vec3 directional_albedo(const ReflectanceModel& model, double theta_o, int rings
 // Energy: no material reflects more than it receives, in any channel, from any direction. The table of
 // docs/materials.md is printed here.
 void models_conserve_energy(void**) {
-    for (const BuiltinModel& material : builtin_models()) {
+    for (const BuiltinModel& material : builtin_models) {
         const auto model = material.make();
         double largest = 0.0;
         for (int degrees = 0; degrees <= 85; degrees += 5) {
@@ -132,7 +131,7 @@ void white_under_a_clear_coat(void**) {
 
 // The lobes that make a paint: broad flakes below a narrow coat, brighter than a tenth of it.
 void car_paint_has_a_broad_and_a_narrow_lobe(void**) {
-    const auto paint = builtin_models()[1].make();
+    const auto paint = builtin_models[1].make();
     const auto at = [&](double degrees) {
         return paint->value(DirectionPair::from_angles(degrees * pi / 180, 0.1, pi / 2)).r;
     };
@@ -166,7 +165,7 @@ void centre_directions(uint32_t half, uint32_t diff, uint32_t phi, Vec3* wi, Vec
 void tables_hold_the_models_at_cell_centres(void**) {
     // A float's rounding, and that of cosines near zero where the centre comes within 1e-4 of the horizon.
     constexpr double relative_rounding = 1e-6;
-    for (const BuiltinModel& material : builtin_models()) {
+    for (const BuiltinModel& material : builtin_models) {
         const auto start = std::chrono::steady_clock::now();
         const BrdfTable table = builtin_material(material.name, "");
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
