@@ -1,0 +1,79 @@
+"""Memory that runs out: every allocation of every scenario of tests/integration/test_out_of_memory.cpp fails in turn.
+
+    python bench/out_of_memory.py --program build/release/tests/integration/test_out_of_memory --out docs/measurements [--only NAME ...]
+
+Each allocation fails twice: alone, and with all that follow it in the call. Of a scenario of more than 20,000 allocations those fail that
+are the first or the last of a place in the code. Writes out_of_memory.csv: for each scenario how many calls failed so, how many of them
+said LB_ERROR_OUT_OF_MEMORY, after how many something was other than before or the call repeated gave another result, how many blocks of
+the library and of OpenEXR's were left, and how many ended the process. Fails where one is not as it should be.
+"""
+from __future__ import annotations
+
+import argparse
+import csv
+import datetime
+import subprocess
+import sys
+from pathlib import Path
+
+from tqdm import tqdm
+
+import lightband
+from scenes import machine
+from tables import write_table
+
+COLUMNS = ("scenario", "failed calls", "out of memory", "other results", "not as before", "blocks left", "blocks OpenEXR lost",
+           "processes ended")
+
+
+def attempts_of(program: Path, scenario: str) -> list[list[str]]:
+    """The program's lines; one that ends before its result is of a call that ended the process, after which the next goes on."""
+    lines: list[list[str]] = []
+    first = 0
+    while True:
+        outcome = subprocess.run([str(program), scenario, str(first)], capture_output=True, text=True)
+        lines += csv.reader(outcome.stdout.splitlines())
+        if outcome.returncode == 0:
+            return lines
+        if not lines or len(lines[-1]) > 4:
+            sys.exit(f"{program} {scenario} {first}: ended with {outcome.returncode} outside a call that fails:\n{outcome.stderr}")
+        first = int(lines[-1][1]) + 1
+
+
+def row_of(program: Path, scenario: str) -> dict:
+    attempts = attempts_of(program, scenario)
+    ended = [line for line in attempts if len(line) == 4]
+    failed = [line for line in attempts if len(line) > 4 and line[3] != "no failure"]
+    for line in attempts:
+        if line in ended or (line in failed and line[3:6] != ["LB_ERROR_OUT_OF_MEMORY", "yes", "0"]):
+            print(",".join(line), file=sys.stderr)
+    return dict(zip(COLUMNS, (
+        scenario, len(failed) + len(ended),
+        sum(line[3] == "LB_ERROR_OUT_OF_MEMORY" for line in failed),
+        sum(line[3] != "LB_ERROR_OUT_OF_MEMORY" for line in failed),
+        sum(line[4] != "yes" for line in failed),
+        sum(int(line[5]) for line in failed),
+        sum(int(line[6]) for line in failed),
+        len(ended))))
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", type=Path, required=True)
+    parser.add_argument("--out", type=Path, default=Path("docs/measurements"))
+    parser.add_argument("--only", nargs="*")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    listed = subprocess.run([str(arguments.program), "--list"], capture_output=True, text=True, check=True).stdout.split()
+    rows = [row_of(arguments.program, scenario) for scenario in tqdm(arguments.only or listed, desc="scenarios")]
+    path = arguments.out / "out_of_memory.csv"
+    write_table(path, f"{machine(lightband.Context(device='software'))}; {datetime.date.today()}", COLUMNS, rows)
+    print(path.read_text())
+    broken = [row["scenario"] for row in rows
+              if row["failed calls"] != row["out of memory"] or row["not as before"] or row["blocks left"] or row["processes ended"]]
+    if broken:
+        sys.exit("not as it should be: " + ", ".join(broken))
+
+
+if __name__ == "__main__":
+    main()
