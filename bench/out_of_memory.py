@@ -2,7 +2,7 @@
 
     python bench/out_of_memory.py --program build/release/tests/integration/test_out_of_memory --out docs/measurements [--only NAME ...]
 
-Each allocation fails twice: alone, and with all that follow it in the call. Of a scenario of more than 20,000 allocations those fail that
+Each allocation fails twice: alone, and with all that follow it in the call. Of a scenario of more than 500 allocations those fail that
 are the first or the last of a place in the code. Writes out_of_memory.csv: for each scenario how many calls failed so, how many of them
 said LB_ERROR_OUT_OF_MEMORY, after how many something was other than before or the call repeated gave another result, how many blocks of
 the library and of OpenEXR's were left, and how many ended the process. Fails where one is not as it should be.

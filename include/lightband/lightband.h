@@ -13,7 +13,8 @@
  *
  * Results    Every call returns lb_result. Output arguments are written on LB_OK alone. The text of the
  *            last failure on the calling thread is lb_error_message(). No call exits, aborts, prints or
- *            throws.
+ *            throws. A call that fails leaves everything as it was, where memory ran out too
+ *            (LB_ERROR_OUT_OF_MEMORY): the same call succeeds once there is enough of it.
  * Handles    Opaque and reference counted. A create call returns one reference; *_release drops it;
  *            releasing NULL does nothing. Objects keep what they need alive: a mesh keeps its context,
  *            a scene its meshes. A handle that was released is recognised (LB_ERROR_INVALID_HANDLE).
@@ -63,9 +64,9 @@ typedef int32_t lb_result;
 #define LB_ERROR_INVALID_STATE 3    /* the call came too early: no camera, no environment, no frame rendered */
 #define LB_ERROR_FILE 4             /* a file cannot be opened, read, written or renamed */
 #define LB_ERROR_FORMAT 5           /* a file is not what it says: truncated, corrupt, out of limits */
-#define LB_ERROR_OUT_OF_MEMORY 6    /* host memory */
+#define LB_ERROR_OUT_OF_MEMORY 6    /* host memory; a driver may end the process where its own runs out, as Mesa does */
 #define LB_ERROR_DEVICE 7           /* no device, or OpenGL failed; the message lists every attempt */
-#define LB_ERROR_LIMIT 8            /* a size is beyond what the device or the library can hold */
+#define LB_ERROR_LIMIT 8            /* a size is beyond what the device (its memory, too) or the library can hold */
 #define LB_ERROR_CANCELLED 9        /* the progress callback asked to stop */
 #define LB_ERROR_INTERNAL 10        /* a defect of the library: please report the message */
 

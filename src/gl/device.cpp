@@ -74,8 +74,8 @@ Device::~Device() {
     programs_.clear();
 }
 
-void Device::log(const char* message) const {
-    if (log_ != nullptr) log_(log_user_, message);
+void Device::log(const std::string& message) const {
+    if (log_ != nullptr) log_(log_user_, message.c_str());
 }
 
 const Program& Device::compute(const std::string& name, const std::string& definitions) {

@@ -24,8 +24,7 @@ public:
     bool software() const { return context_->software(); }
     GLint max_texture_size() const { return max_texture_size_; }
     GLint max_texture_buffer_texels() const { return max_texture_buffer_texels_; }
-    void log(const char* message) const;  // takes no memory: the driver's callback must not throw
-    void log(const std::string& message) const { log(message.c_str()); }
+    void log(const std::string& message) const;
 
     // A compute program from shaders/<name>.glsl, compiled at first use for these definitions ("A 1\nB 2").
     const Program& compute(const std::string& name, const std::string& definitions = "");

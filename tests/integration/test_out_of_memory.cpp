@@ -129,7 +129,7 @@ void print(const Scenario& scenario, const Course& course, int64_t granted) {
 
 // From allocation `first` on: all, or of a course of more than that, those of places.
 int print_all(const Scenario& scenario, int64_t first) {
-    constexpr int64_t most = 20000;
+    constexpr int64_t most = 500;  // of calls that are quick
     const Course course = course_of(scenario);
     if (course.allocations.count > most) {
         for (const int64_t number : course.allocations.of_places)
