@@ -1,6 +1,7 @@
 // lb_frame and its settings.
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "api/border.h"
 #include "frame/save.h"
@@ -109,11 +110,10 @@ lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_b
     });
 }
 
-uint32_t lb_frame_buffer_count(void) { return uint32_t(Frame::field_names().size()); }
+uint32_t lb_frame_buffer_count(void) { return uint32_t(std::size(Frame::field_names)); }
 
 const char* lb_frame_buffer_name(uint32_t index) {
-    const auto& names = Frame::field_names();
-    return index < names.size() ? names[index].name : nullptr;
+    return index < std::size(Frame::field_names) ? Frame::field_names[index].name : nullptr;
 }
 
 lb_result lb_frame_save(lb_frame frame, const char* path, const char* names, float exposure) {

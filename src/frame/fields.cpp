@@ -124,16 +124,6 @@ std::vector<float> Frame::interpolation_shape() const {
     return shape;
 }
 
-const std::array<Frame::FieldName, Frame::field_count>& Frame::field_names() {
-    static constexpr std::array<FieldName, field_count> names = {{
-        {"color", false}, {"depth", false}, {"position", false}, {"normal", false}, {"curvature", true},
-        {"material", false}, {"bandwidth_spatial", true}, {"bandwidth_angular", true}, {"bandwidth_image", true},
-        {"bandwidth_reflected", true}, {"level", true}, {"cell_level", true}, {"shaded", false}, {"sample_count", false},
-        {"error", false}, {"variance_predicted", true}, {"variance_measured", false}, {"level_pyramid", true},
-        {"variance_pyramid", true}}};
-    return names;
-}
-
 // Frames that do not interpolate in the image need no pyramids, nor do those whose shares do not follow variance need that one: theirs
 // are made when they are asked for, of the bandwidth as it is.
 HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& material) const {
@@ -162,24 +152,20 @@ HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& ma
 }
 
 HostArray Frame::field(const std::string& name) const {
-    const auto& names = field_names();
-    const auto known = std::find_if(names.begin(), names.end(), [&](const FieldName& f) { return name == f.name; });
-    if (known == names.end()) {
+    const auto known = std::find_if(std::begin(field_names), std::end(field_names), [&](const FieldName& f) { return name == f.name; });
+    if (known == std::end(field_names)) {
         std::string all;
-        for (const FieldName& f : names) all += text(all.empty() ? "" : ", ", f.name);
+        for (const FieldName& f : field_names) all += text(all.empty() ? "" : ", ", f.name);
         throw Error(LB_ERROR_INVALID_ARGUMENT, text("there is no field \"", name, "\"; there are ", all));
     }
     const Result& r = result();
     if (known->predicted && !r.prediction)
         throw Error(LB_ERROR_INVALID_STATE, text("field ", name, ": a frame of method reference predicts nothing"));
     std::vector<uint8_t> material = read_bytes(r.gbuffer.material, pixels());
-    HostArray array = known->predicted                                               ? predicted(name, material)
-                      : name == "depth" || name == "position" || name == "normal" ? seen(name, material)
-                      : name == "material"
-                          ? HostArray::of(LB_TYPE_UINT8, {height_, width_}, "instance + 1", std::move(material))
-                          : shaded(name, material);
-    device_->check("reading a field");  // where it failed, the array holds zeros
-    return array;
+    if (name == "material") return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "instance + 1", std::move(material));
+    if (known->predicted) return predicted(name, material);
+    if (name == "depth" || name == "position" || name == "normal") return seen(name, material);
+    return shaded(name, material);
 }
 
 HostArray Frame::scalar(std::vector<float> values, const char* unit) const {

@@ -1,7 +1,6 @@
 // A picture: from scene and settings to passes, run in order, and their fields.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -42,8 +41,12 @@ public:
         const char* name;
         bool predicted;  // absent from a reference frame
     };
-    static constexpr size_t field_count = 19;
-    static const std::array<FieldName, field_count>& field_names();
+    static constexpr FieldName field_names[] = {
+        {"color", false}, {"depth", false}, {"position", false}, {"normal", false}, {"curvature", true},
+        {"material", false}, {"bandwidth_spatial", true}, {"bandwidth_angular", true}, {"bandwidth_image", true},
+        {"bandwidth_reflected", true}, {"level", true}, {"cell_level", true}, {"shaded", false}, {"sample_count", false},
+        {"error", false}, {"variance_predicted", true}, {"variance_measured", false}, {"level_pyramid", true},
+        {"variance_pyramid", true}};
 
     uint32_t width() const { return width_; }
     uint32_t height() const { return height_; }
