@@ -1,11 +1,14 @@
 """Memory that runs out: every allocation of every scenario of tests/integration/test_out_of_memory.cpp fails in turn.
 
-    python bench/out_of_memory.py --program build/release/tests/integration/test_out_of_memory --out docs/measurements [--only NAME ...]
+    python bench/out_of_memory.py --program build/release/tests/integration/test_out_of_memory \\
+        --out docs/measurements [--only SCENARIO ...]
 
-Each allocation fails twice: alone, and with all that follow it in the call. Of a scenario of more than 500 allocations those fail that
-are the first or the last of a place in the code. Writes out_of_memory.csv: for each scenario how many calls failed so, how many of them
-said LB_ERROR_OUT_OF_MEMORY, after how many something was other than before or the call repeated gave another result, how many blocks of
-the library and of OpenEXR's were left, and how many ended the process. Fails where one is not as it should be.
+Each allocation fails twice: alone, and together with all that follow it in the call. In a scenario of more than 500
+allocations, those fail that are the first or the last of one place in the code. Writes out_of_memory.csv with a row for
+each scenario: how many calls had an allocation fail; how many of them returned LB_ERROR_OUT_OF_MEMORY, and how many
+something else; after how many the state differed from that before the call, or the repeated call gave another result;
+how many blocks of the library and of OpenEXR were left; how many calls ended the process. Fails where the library is at
+fault.
 """
 from __future__ import annotations
 
@@ -22,12 +25,12 @@ import lightband
 from scenes import machine
 from tables import write_table
 
-COLUMNS = ("scenario", "failed calls", "out of memory", "other results", "not as before", "blocks left", "blocks OpenEXR lost",
-           "processes ended")
+COLUMNS = ("scenario", "failed calls", "out of memory", "other results", "not as before", "blocks left",
+           "blocks OpenEXR lost", "processes ended")
 
 
 def attempts_of(program: Path, scenario: str) -> list[list[str]]:
-    """The program's lines; one that ends before its result is of a call that ended the process, after which the next goes on."""
+    """The program's lines. A call that ends the process leaves a line without a result; the next one goes on."""
     lines: list[list[str]] = []
     first = 0
     while True:
@@ -36,7 +39,7 @@ def attempts_of(program: Path, scenario: str) -> list[list[str]]:
         if outcome.returncode == 0:
             return lines
         if not lines or len(lines[-1]) > 4:
-            sys.exit(f"{program} {scenario} {first}: ended with {outcome.returncode} outside a call that fails:\n{outcome.stderr}")
+            sys.exit(f"{program} {scenario} {first}: status {outcome.returncode} outside of a call:\n{outcome.stderr}")
         first = int(lines[-1][1]) + 1
 
 
@@ -64,13 +67,14 @@ def main() -> None:
     parser.add_argument("--only", nargs="*")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
-    listed = subprocess.run([str(arguments.program), "--list"], capture_output=True, text=True, check=True).stdout.split()
-    rows = [row_of(arguments.program, scenario) for scenario in tqdm(arguments.only or listed, desc="scenarios")]
+    listing = subprocess.run([str(arguments.program), "--list"], capture_output=True, text=True, check=True)
+    scenarios = arguments.only or listing.stdout.split()
+    rows = [row_of(arguments.program, scenario) for scenario in tqdm(scenarios, desc="scenarios")]
     path = arguments.out / "out_of_memory.csv"
     write_table(path, f"{machine(lightband.Context(device='software'))}; {datetime.date.today()}", COLUMNS, rows)
     print(path.read_text())
-    broken = [row["scenario"] for row in rows
-              if row["failed calls"] != row["out of memory"] or row["not as before"] or row["blocks left"] or row["processes ended"]]
+    faults = ("other results", "not as before", "blocks left", "processes ended")
+    broken = [row["scenario"] for row in rows if any(row[fault] for fault in faults)]
     if broken:
         sys.exit("not as it should be: " + ", ".join(broken))
 

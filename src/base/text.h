@@ -1,5 +1,6 @@
-// Text from parts: text("width ", width, " exceeds the limit ", limit). It is the whole text or an exception: standard streams swallow
-// a std::bad_alloc and keep what they had written until then. It is the same in every locale.
+// Building text from parts: text("width ", width, " exceeds the limit ", limit). The result is the whole text, or
+// std::bad_alloc is thrown; a standard stream would swallow the exception and keep what it had written until then. The
+// text is the same in every locale.
 #pragma once
 
 #include <charconv>
@@ -22,13 +23,15 @@ inline void append(std::string* out, char part) { out->push_back(part); }
 
 template <typename Number, typename = std::enable_if_t<std::is_arithmetic_v<Number>>>
 void append(std::string* out, Number part) {
-    static_assert(!std::is_same_v<Number, bool> && sizeof(Number) > 1, "a byte is written as the number or the character that it means");
+    static_assert(!std::is_same_v<Number, bool> && sizeof(Number) > 1, "convert it to the number or word meant");
     char digits[32];  // 2^64 has 20 digits; a double's sign, point, nine digits and exponent are 16 characters
     char* const end = digits + sizeof digits;
+    std::to_chars_result written;
     if constexpr (std::is_floating_point_v<Number>)
-        out->append(digits, std::to_chars(digits, end, double(part), std::chars_format::general, significant_digits).ptr);
+        written = std::to_chars(digits, end, double(part), std::chars_format::general, significant_digits);
     else
-        out->append(digits, std::to_chars(digits, end, part).ptr);
+        written = std::to_chars(digits, end, part);
+    out->append(digits, written.ptr);
 }
 
 }  // namespace detail

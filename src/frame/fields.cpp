@@ -152,7 +152,8 @@ HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& ma
 }
 
 HostArray Frame::field(const std::string& name) const {
-    const auto known = std::find_if(std::begin(field_names), std::end(field_names), [&](const FieldName& f) { return name == f.name; });
+    const auto is_it = [&](const FieldName& f) { return name == f.name; };
+    const auto known = std::find_if(std::begin(field_names), std::end(field_names), is_it);
     if (known == std::end(field_names)) {
         std::string all;
         for (const FieldName& f : field_names) all += text(all.empty() ? "" : ", ", f.name);

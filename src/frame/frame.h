@@ -42,11 +42,26 @@ public:
         bool predicted;  // absent from a reference frame
     };
     static constexpr FieldName field_names[] = {
-        {"color", false}, {"depth", false}, {"position", false}, {"normal", false}, {"curvature", true},
-        {"material", false}, {"bandwidth_spatial", true}, {"bandwidth_angular", true}, {"bandwidth_image", true},
-        {"bandwidth_reflected", true}, {"level", true}, {"cell_level", true}, {"shaded", false}, {"sample_count", false},
-        {"error", false}, {"variance_predicted", true}, {"variance_measured", false}, {"level_pyramid", true},
-        {"variance_pyramid", true}};
+        {"color", false},
+        {"depth", false},
+        {"position", false},
+        {"normal", false},
+        {"curvature", true},
+        {"material", false},
+        {"bandwidth_spatial", true},
+        {"bandwidth_angular", true},
+        {"bandwidth_image", true},
+        {"bandwidth_reflected", true},
+        {"level", true},
+        {"cell_level", true},
+        {"shaded", false},
+        {"sample_count", false},
+        {"error", false},
+        {"variance_predicted", true},
+        {"variance_measured", false},
+        {"level_pyramid", true},
+        {"variance_pyramid", true},
+    };
 
     uint32_t width() const { return width_; }
     uint32_t height() const { return height_; }

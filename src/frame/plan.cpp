@@ -17,7 +17,8 @@ std::string at_right(std::string_view text, size_t width) {
 }
 
 std::string two_decimals(double value) {
-    char digits[std::numeric_limits<double>::max_exponent10 + 8];  // of the largest number, with sign, point and decimals
+    // Of the largest number with its sign, point and decimals.
+    char digits[std::numeric_limits<double>::max_exponent10 + 8];
     return {digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 2).ptr};
 }
 
@@ -56,7 +57,8 @@ std::string Plan::text() const {
     for (const Pass& pass : passes_) {
         out += at_left(pass.name, 12) + at_right(two_decimals(pass.milliseconds), 10) + " ms ";
         out += at_right(two_decimals(double(pass.bytes) / 1e6), 9) + " MB ";
-        out += at_right(lightband::text(pass.invocations), 12) + ' ' + at_left(pass.unit, 8) + "  " + pass.reason + '\n';
+        out += at_right(lightband::text(pass.invocations), 12) + ' ' + at_left(pass.unit, 8) + "  ";
+        out += pass.reason + '\n';
     }
     return out + at_left("total", 12) + at_right(two_decimals(total_milliseconds()), 10) + " ms\n";
 }

@@ -44,7 +44,8 @@ std::unique_ptr<Program> link(const Functions& gl, const std::string& name, cons
         GLint compiled = GL_FALSE;
         gl.GetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
         if (!compiled)
-            throw Error(LB_ERROR_DEVICE, text("shader ", file, " does not compile: ", info_log(gl, shader.name(), false)));
+            throw Error(LB_ERROR_DEVICE,
+                        text("shader ", file, " does not compile: ", info_log(gl, shader.name(), false)));
         gl.AttachShader(program->name(), shader.name());
     }
     gl.LinkProgram(program->name());

@@ -27,8 +27,8 @@ protected:
     GLuint name_ = 0;
 };
 
-// Immutable storage. data may be null (undefined contents). Buffers and textures throw LB_ERROR_LIMIT where the device has no memory for
-// them: what is read from one without storage is zero, and a picture made of it is wrong.
+// Immutable storage. data may be null (undefined contents). Buffers and textures throw LB_ERROR_LIMIT where the device
+// has no memory for them: reads of an object without storage give zero, and a picture made of them would be wrong.
 class Buffer : public Object {
 public:
     Buffer() = default;

@@ -36,10 +36,16 @@ struct Module {
     uintptr_t first = 0, end = 0;  // addresses
 };
 Module modules[] = {
-    {"", Owner::library},  // the program itself, for which the loader has no name: lightband.hpp is compiled into it
-    {"liblightband.so", Owner::library},   {"libpng16.so", Owner::library},      {"libmeshoptimizer.so", Owner::library},
-    {"libOpenEXR", Owner::openexr},        {"libImath", Owner::openexr},         {"libIex", Owner::openexr},
-    {"libIlmThread", Owner::openexr},      {"libz.so", Owner::openexr},          {"libstdc++.so", Owner::runtime},
+    {"", Owner::library},  // the program itself, to which the loader gives no name: lightband.hpp is compiled into it
+    {"liblightband.so", Owner::library},
+    {"libpng16.so", Owner::library},
+    {"libmeshoptimizer.so", Owner::library},
+    {"libOpenEXR", Owner::openexr},
+    {"libImath", Owner::openexr},
+    {"libIex", Owner::openexr},
+    {"libIlmThread", Owner::openexr},
+    {"libz.so", Owner::openexr},
+    {"libstdc++.so", Owner::runtime},
 };
 std::atomic<bool> begun{false};
 
@@ -47,8 +53,8 @@ int find_module(dl_phdr_info* info, size_t, void*) {
     const char* slash = std::strrchr(info->dlpi_name, '/');
     const char* file = slash != nullptr ? slash + 1 : info->dlpi_name;
     for (Module& module : modules) {
-        const bool named = *module.name == 0 ? *file == 0 : std::strncmp(file, module.name, std::strlen(module.name)) == 0;
-        if (!named) continue;
+        const bool is_program = *module.name == 0;
+        if (is_program ? *file != 0 : std::strncmp(file, module.name, std::strlen(module.name)) != 0) continue;
         for (int i = 0; i < info->dlpi_phnum; ++i) {
             const ElfW(Phdr)& segment = info->dlpi_phdr[i];
             if (segment.p_type != PT_LOAD || !(segment.p_flags & PF_X)) continue;
@@ -124,7 +130,10 @@ struct Lock {
     ~Lock() { blocks_locked.clear(std::memory_order_release); }
 };
 
-size_t place_of(const void* address) { return (uintptr_t(address) >> 4) * 0x9e3779b97f4a7c15u >> 40 & (most_blocks - 1); }
+constexpr size_t last_place = most_blocks - 1;
+
+// Fibonacci hashing (Knuth 1973, section 6.4) of what tells addresses apart: blocks are aligned to 16 bytes.
+size_t place_of(const void* address) { return (uintptr_t(address) >> 4) * 0x9e3779b97f4a7c15u >> 40 & last_place; }
 
 std::atomic<int64_t>& counter(Owner owner) { return owner == Owner::library ? held_by_library : held_by_openexr; }
 
@@ -133,7 +142,7 @@ bool is_counted(const Caller& caller) { return caller.owner == Owner::library ||
 void remember(void* address, size_t bytes, const Caller& caller, int64_t number) {
     const Lock lock;
     size_t place = place_of(address);
-    for (size_t tried = 0; blocks[place].address != nullptr; place = (place + 1) & (most_blocks - 1))
+    for (size_t tried = 0; blocks[place].address != nullptr; place = (place + 1) & last_place)
         if (++tried == most_blocks) std::abort();
     blocks[place] = {address, number, bytes, caller};
     ++counter(caller.owner);
@@ -146,12 +155,12 @@ void forget(void* address) {
     size_t place = place_of(address);
     while (blocks[place].address != address) {
         if (blocks[place].address == nullptr) return;  // not the library's
-        place = (place + 1) & (most_blocks - 1);
+        place = (place + 1) & last_place;
     }
     --counter(blocks[place].caller.owner);
-    for (size_t next = (place + 1) & (most_blocks - 1); blocks[next].address != nullptr; next = (next + 1) & (most_blocks - 1)) {
+    for (size_t next = (place + 1) & last_place; blocks[next].address != nullptr; next = (next + 1) & last_place) {
         const size_t home = place_of(blocks[next].address);
-        if (((next - home) & (most_blocks - 1)) < ((next - place) & (most_blocks - 1))) continue;
+        if (((next - home) & last_place) < ((next - place) & last_place)) continue;
         blocks[place] = blocks[next];
         place = next;
     }
@@ -189,8 +198,10 @@ Course course_since(int64_t first) {
     Course course{allocations - first, {}};
     if (course.count > int64_t(remembered_callers)) std::abort();
     std::map<uintptr_t, std::pair<int64_t, int64_t>> places;  // first and last
-    for (int64_t number = 0; number < course.count; ++number)
-        places.emplace(callers[size_t(first + number) % remembered_callers], std::pair(number, number)).first->second.second = number;
+    for (int64_t number = 0; number < course.count; ++number) {
+        const uintptr_t caller = callers[size_t(first + number) % remembered_callers];
+        places.emplace(caller, std::pair(number, number)).first->second.second = number;
+    }
     std::set<int64_t> numbers;
     for (const auto& [place, ends] : places) numbers.insert({ends.first, ends.second});
     course.of_places.assign(numbers.begin(), numbers.end());

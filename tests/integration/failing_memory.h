@@ -1,9 +1,11 @@
-// Memory that runs out on purpose: a program with failing_memory.cpp counts the allocations of the library, of the libraries that read
-// and write its files, and of the program itself, which lightband.hpp is part of, and makes a chosen one fail.
+// Memory that runs out on purpose: a program with failing_memory.cpp counts the allocations of the library, of the
+// libraries that read and write its files, and of the program itself, into which lightband.hpp is compiled, and makes
+// chosen ones fail.
 //
-// The program's own operator new and malloc take the place of everybody's. An allocation is the library's where the code that asks for
-// it, beneath the C++ runtime, is the library's: drivers end the process when their memory fails, and are left alone. All threads are
-// counted together, as the library may work on threads of its own.
+// The program defines operator new and malloc, and every library of the process then calls these. An allocation counts
+// as the library's where the code that asks for it, below the C++ runtime, lies in the library. Drivers are left alone:
+// they end the process when their memory fails. Allocations of all threads are counted together, as the library may
+// work on threads of its own.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +25,8 @@ bool stop_failing();
 // Allocations since begin().
 int64_t count();
 
-// How many allocations have been made since allocation `first`, and which of them, counted from there, are the first and the last of
-// those that one place in the code asks for: calls make hundreds of thousands of allocations in a few hundred places.
+// How many allocations have been made since allocation `first`, and which of them, counted from there, are the first or
+// the last that one place in the code asks for: a call may make thousands of allocations in a few hundred places.
 struct Course {
     int64_t count;
     std::vector<int64_t> of_places;  // ascending
@@ -37,8 +39,8 @@ struct Blocks {
 };
 Blocks held();
 
-// Writes to the standard error where each block of the library was allocated that is held, if its number is at least `first`
-// (count() before what is looked at).
+// Writes to the standard error which code has allocated the library's blocks that are held, of those whose number is at
+// least `first`, a former count().
 void print_held(int64_t first);
 
 }  // namespace failing_memory

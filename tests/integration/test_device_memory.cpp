@@ -1,5 +1,5 @@
-// What the device is given when memory runs out. Buffers and textures that it has no memory for: an error where they are made, and none
-// that a later call would meet. Sources of shaders: whole or an exception.
+// Buffers and textures that the device has no memory for are an error where they are made, and leave none for a later
+// call. Sources of shaders are whole where memory runs out, or an exception.
 #include <cstring>
 
 #include "failing_memory.h"
@@ -16,9 +16,10 @@ void storage_beyond_the_device_is_refused(void**) {
     const gl::Device::Guard guard(device);
     const gl::Functions& gl = device->gl();
     constexpr size_t too_much = size_t(1) << 46;  // bytes: more than a process can address beside its own
-    testing::expect_error(LB_ERROR_LIMIT, {"no memory", "buffer of 70368744177664 bytes"}, [&] { gl::Buffer(gl, too_much, nullptr); });
+    testing::expect_error(LB_ERROR_LIMIT, {"no memory", "buffer of 70368744177664 bytes"},
+                          [&] { gl::Buffer(gl, too_much, nullptr); });
     const uint32_t side = uint32_t(device->max_texture_size());
-    constexpr uint32_t layers = 256;  // that OpenGL 4.5 promises at least; of a software renderer's 16,384 texels a side a tebibyte
+    constexpr uint32_t layers = 256;  // every OpenGL 4.5 takes so many; of 16,384 x 16,384 texels they are a tebibyte
     testing::expect_error(LB_ERROR_LIMIT, {"no memory", "256 times"},
                           [&] { gl::Texture::image_array(gl, GL_RGBA32F, side, side, layers, 1); });
     device->check("afterwards");

@@ -1,8 +1,9 @@
-// Memory that runs out: whichever allocation of a call fails, the call says LB_ERROR_OUT_OF_MEMORY, leaves everything as it was, keeps no
-// block, and the next one succeeds with the same result.
+// Memory that runs out: whichever allocation of a call fails, the call returns LB_ERROR_OUT_OF_MEMORY, leaves
+// everything as it was and keeps no block, and the same call then succeeds with the same result.
 //
-// Without arguments: a sample of the allocations of each scenario. With --list: the scenarios' names. With a scenario's name and a
-// number: all its allocations from that one on, a line of comma-separated values for each (bench/out_of_memory.py).
+// Without arguments: tests of a sample of the allocations of each scenario. With --list: the scenarios' names. With a
+// scenario's name and a number: a line of comma-separated values for each allocation from that one on
+// (bench/out_of_memory.py).
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -69,7 +70,7 @@ lb_result result_of(const Scenario& scenario) {
 
 Outcome attempt(const Scenario& scenario, const Course& course, int64_t granted, Failing failing) {
     Outcome outcome;
-    outcome.message.reserve(4096);  // of blocks none is made for it below
+    outcome.message.reserve(4096);  // before blocks are counted; lb_error_message() is no longer
     const Blocks before = failing_memory::held();
     const int64_t first = failing_memory::count();
     scenario.prepare();
@@ -95,12 +96,13 @@ void check(const Scenario& scenario, const Course& course, int64_t granted, Fail
     const lb_result expected = outcome.failed ? LB_ERROR_OUT_OF_MEMORY : LB_OK;
     if (outcome.result == expected && outcome.same && outcome.left.library == 0) return;
     fail_msg("%s with %lld allocations granted, then %s failing: %s (%s); %s; %lld blocks left", scenario.name.c_str(),
-             (long long)granted, failing == Failing::one ? "one" : "all", lb_result_name(outcome.result), outcome.message.c_str(),
-             outcome.same ? "all is as it was" : "not all is as it was", (long long)outcome.left.library);
+             (long long)granted, failing == Failing::one ? "one" : "all", lb_result_name(outcome.result),
+             outcome.message.c_str(), outcome.same ? "all is as it was" : "not all is as it was",
+             (long long)outcome.left.library);
 }
 
-// Some of the first and last allocations that places in the code ask for; where there is time, the last of all, and one more than there
-// are.
+// Some of the first and last allocations that places in the code ask for; where calls are quick, also the last of all,
+// and one more than there are, so that none fails.
 void test_sample(void** state) {
     const Scenario& scenario = *static_cast<Scenario*>(*state);
     const Course course = course_of(scenario);
@@ -120,7 +122,8 @@ void print(const Scenario& scenario, const Course& course, int64_t granted) {
     for (const Failing failing : {Failing::one, Failing::all}) {
         std::printf("%s,%lld,%s,", scenario.name.c_str(), (long long)granted, failing == Failing::one ? "one" : "all");
         std::fflush(stdout);  // where the process ends in this call, it has said in which
-        const Outcome outcome = attempt(scenario, course, granted, failing);
+        Outcome outcome = attempt(scenario, course, granted, failing);
+        std::replace(outcome.message.begin(), outcome.message.end(), '"', '\'');
         std::printf("%s,%s,%lld,%lld,\"%s\"\n", outcome.failed ? lb_result_name(outcome.result) : "no failure",
                     outcome.same ? "yes" : "no", (long long)outcome.left.library, (long long)outcome.left.openexr,
                     outcome.result == LB_ERROR_OUT_OF_MEMORY ? "" : outcome.message.c_str());

@@ -13,7 +13,8 @@ using namespace lightband;
 
 void parts_follow_each_other(void**) {
     const std::string name = "map.exr";
-    assert_string_equal(text(name, ": ", size_t(3), " of ", -4, ' ', std::string_view("x|y").substr(0, 1), "").c_str(), "map.exr: 3 of -4 x");
+    const std::string whole = text(name, ": ", size_t(3), " of ", -4, ' ', std::string_view("x|y").substr(0, 1), "");
+    assert_string_equal(whole.c_str(), "map.exr: 3 of -4 x");
     assert_string_equal(text().c_str(), "");
     assert_string_equal(text(std::numeric_limits<int64_t>::min(), " ", std::numeric_limits<uint64_t>::max()).c_str(),
                         "-9223372036854775808 18446744073709551615");
@@ -28,7 +29,8 @@ void check_number(double value) {
 }
 
 void numbers_have_nine_digits(void**) {
-    for (const double value : {0.0, -0.0, 1.0, 0.1, 100000.0, 1e9, 1e10, 1e-5, 5e-324, 1.7976931348623157e308, -2.5, 1.0 / 3})
+    constexpr double smallest = std::numeric_limits<double>::denorm_min(), largest = std::numeric_limits<double>::max();
+    for (const double value : {0.0, -0.0, 1.0, 0.1, 100000.0, 1e9, 1e10, 1e-5, smallest, largest, -2.5, 1.0 / 3})
         check_number(value);
     check_number(std::numeric_limits<double>::infinity());
     check_number(-std::numeric_limits<double>::infinity());
