@@ -12,7 +12,7 @@ namespace lightband {
 namespace {
 
 // Part of the names of cached tables. Raise it whenever a model, a constant or the cell layout changes.
-constexpr int cache_version = 1;
+constexpr int cache_version = 2;
 
 std::filesystem::path cache_file(const std::string& name, const std::string& cache_path) {
     return std::filesystem::path(cache_path) / text(name, "-v", cache_version, ".binary");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "scene/table_cells.h"
 
 namespace lightband {
 
@@ -10,23 +11,13 @@ namespace {
 
 constexpr Vec3 not_measured(-1.0);
 
-// Centres of the cells: theta_half is quadratic, the other angles are linear; phi_diff covers half a turn.
-DirectionPair cell_centre(size_t cell) {
-    const size_t phi_diff = cell % BrdfTable::phi_diff_cells;
-    const size_t theta_diff = cell / BrdfTable::phi_diff_cells % BrdfTable::theta_diff_cells;
-    const size_t theta_half = cell / BrdfTable::phi_diff_cells / BrdfTable::theta_diff_cells;
-    const double root = (double(theta_half) + 0.5) / BrdfTable::theta_half_cells;
-    return DirectionPair::from_angles(root * root * pi / 2.0,
-                                      (double(theta_diff) + 0.5) / BrdfTable::theta_diff_cells * pi / 2.0,
-                                      (double(phi_diff) + 0.5) / BrdfTable::phi_diff_cells * pi);
-}
-
 }  // namespace
 
 Vec3 cell_value(const ReflectanceModel& model, size_t cell) {
-    const DirectionPair pair = cell_centre(cell);
-    if (!pair.above_horizon()) return not_measured;
-    const Vec3 value = model.value(pair);
+    const TableCell place = TableCell::numbered(cell);
+    if (!place.reaches_above_horizon()) return not_measured;
+    const TableAngles at = place.representative();
+    const Vec3 value = model.value(DirectionPair::from_angles(at.theta_half, at.theta_diff, at.phi_diff));
     for (int channel = 0; channel < 3; ++channel)
         if (!std::isfinite(value[channel]) || value[channel] < 0.0)
             throw Error(LB_ERROR_INTERNAL, text("built-in material: cell ", cell, ", channel ", channel, " is ",

@@ -17,11 +17,12 @@ public:
     virtual Vec3 value(const DirectionPair& pair) const = 0;
 };
 
-// The model at the centre of one cell of the MERL layout, counted as in BrdfTable::cell; -1 in all channels where the
-// centre lies below the horizon. LB_ERROR_INTERNAL for a value that is negative or not finite.
+// The model at one cell of the MERL layout, counted as in BrdfTable::cell: at its centre; where that lies below the
+// horizon, amid the part above it, so that the table reflects light up to grazing; -1 in all channels where no part of
+// the cell is above. LB_ERROR_INTERNAL for a value that is negative or not finite.
 Vec3 cell_value(const ReflectanceModel& model, size_t cell);
 
-// The model at the centre of every cell.
+// The model at every cell.
 BrdfTable tabulated(const ReflectanceModel& model);
 
 }  // namespace lightband

@@ -18,7 +18,8 @@ struct BrdfTable {
     static constexpr uint32_t phi_diff_cells = 180;
     static constexpr size_t cell_count = size_t(theta_half_cells) * theta_diff_cells * phi_diff_cells;
 
-    // cell_count * 3, RGB interleaved, 1/steradian. A cell that was not measured holds -1 in all three channels.
+    // cell_count * 3, RGB interleaved, 1/steradian. A cell that was not measured, or that lies below the
+    // horizon as a whole, holds -1 in all three channels.
     std::vector<float> rgb;
 
     static constexpr size_t cell(uint32_t theta_half, uint32_t theta_diff, uint32_t phi_diff) {
