@@ -78,8 +78,9 @@ std::shared_ptr<Brdf> make_brdf(const Context& self, lightband::Brdf handle, con
     return held(Brdf{{self.log}, std::move(handle), description});
 }
 
-std::shared_ptr<Brdf> load_brdf(const Context& self, const Path& path) {
-    return make_brdf(self, in_library([&] { return self.handle.load_brdf(path.string()); }), file_name(path));
+std::shared_ptr<Brdf> load_brdf(const Context& self, const Path& path, bool fill_unmeasured) {
+    const auto load = [&] { return self.handle.load_brdf(path.string(), fill_unmeasured); };
+    return make_brdf(self, in_library(load), file_name(path));
 }
 
 std::shared_ptr<Brdf> builtin_brdf(const Context& self, const std::string& name) {
@@ -162,8 +163,11 @@ std::shared_ptr<Frame> frame(const Context& self, uint32_t width, uint32_t heigh
 }
 
 void bind_material_makers(ContextClass& type) {
-    define(type, "load_brdf(self, path)", &load_brdf, R"(A measured reflectance from a MERL .binary file.
+    define(type, "load_brdf(self, path, fill_unmeasured=True)", &load_brdf,
+           R"(A measured reflectance from a MERL .binary file.
 
+fill_unmeasured: cells that were not measured are filled from the measured cells of the same theta_half and
+phi_diff, towards grazing with the last of them; the log callback hears how many. False: they reflect nothing.
 Raises FileError when the file cannot be read, FormatError when it is no MERL file.)");
     define(type, "builtin_brdf(self, name)", &builtin_brdf, R"(A material that the library computes itself.
 
@@ -172,7 +176,7 @@ folder.)");
     define(type, "table_brdf(self, table)", &table_brdf, R"(A measured reflectance from an array.
 
 table: 90 x 90 x 180 x 3 values in 1/steradian, cells (theta_half [quadratic], theta_diff, phi_diff) as in a
-MERL file, RGB last. A negative value means "not measured". Copied.)");
+MERL file, RGB last. A cell with a negative value was not measured and reflects nothing. Copied.)");
     define(type, "lambert(self, albedo)", &lambert, R"(A diffuse reflectance, albedo / pi.
 
 albedo: RGB or one number for all three, each in [0, 1].)");

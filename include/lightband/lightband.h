@@ -139,10 +139,16 @@ LB_API lb_result lb_context_is_software(lb_context context, uint32_t* software);
 
 /* A BRDF of a MERL .binary file (Matusik et al. 2003): three int32 (90, 90, 180), then 3 x 90 x 90 x 180
  * float64, channel-major, cells (theta_half [quadratic], theta_diff, phi_diff), scaled by (1, 1.15, 1.66)/1500
- * to 1/steradian. Negative cells were not measured; they reflect nothing.
+ * to 1/steradian. Negative cells were not measured. Those that directions above the horizon can reach are filled from
+ * the measured cells of the same theta_half and phi_diff: between two of them linearly; beyond the last, towards
+ * grazing, with its value (docs/conventions.md). The log callback hears how many were filled, and how many had nothing
+ * to be filled from: these reflect nothing.
  * LB_ERROR_FILE, LB_ERROR_FORMAT (header, size, a cell that is not finite or above 1e9 per steradian, more than a hundred
  * times the light reflected). */
 LB_API lb_result lb_brdf_load(lb_context context, const char* path, lb_brdf* brdf);
+
+/* The same, but no cell is filled: those that were not measured reflect nothing. */
+LB_API lb_result lb_brdf_load_as_measured(lb_context context, const char* path, lb_brdf* brdf);
 
 /* A material that the library computes itself as a table in the MERL layout, from physical models and
  * published optical constants (docs/materials.md). Computed at first use (up to a second) and cached.
@@ -154,8 +160,8 @@ LB_API uint32_t lb_brdf_builtin_count(void);
 LB_API const char* lb_brdf_builtin_name(uint32_t index);
 
 /* A BRDF from a table in memory: float32 values in 1/steradian, shape [90][90][180][3], cells and order as in a
- * MERL file but colours interleaved, at most 1e9, nor more than a hundred times the light reflected; negative: not measured. The table is
- * copied. */
+ * MERL file but colours interleaved, at most 1e9, nor more than a hundred times the light reflected. The table is
+ * copied. Negative cells were not measured and reflect nothing; unlike a file's, they are not filled. */
 LB_API lb_result lb_brdf_create_table(lb_context context, const float* values, size_t count, lb_brdf* brdf);
 
 /* Lambert: albedo / pi. Each albedo channel in [0, 1]. */

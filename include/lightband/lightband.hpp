@@ -325,7 +325,10 @@ public:
         return software != 0;
     }
 
-    Brdf load_brdf(const std::string& path) const { return make<Brdf>(lb_brdf_load, c_text(path)); }
+    // fill_unmeasured: whether cells that were not measured are filled from those that were; else they reflect nothing.
+    Brdf load_brdf(const std::string& path, bool fill_unmeasured = true) const {
+        return make<Brdf>(fill_unmeasured ? lb_brdf_load : lb_brdf_load_as_measured, c_text(path));
+    }
     Brdf builtin_brdf(const std::string& name) const { return make<Brdf>(lb_brdf_builtin, c_text(name)); }
     // values: [90][90][180][3], 1/steradian.
     Brdf table_brdf(const float* values, size_t count) const { return make<Brdf>(lb_brdf_create_table, values, count); }

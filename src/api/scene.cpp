@@ -6,6 +6,7 @@
 #include "io/merl.h"
 #include "materials/builtin_materials.h"
 #include "materials/builtin_models.h"
+#include "scene/unmeasured_cells.h"
 
 using namespace lightband;
 using namespace lightband::api;
@@ -125,6 +126,18 @@ BrdfTable table_from(const float* values, size_t count) {
 extern "C" {
 
 lb_result lb_brdf_load(lb_context context, const char* path, lb_brdf* brdf) {
+    return create_brdf(context, brdf, [&](const Context& owner) -> Brdf {
+        require(path, "path");
+        BrdfTable table = io::read_merl(path);
+        const UnmeasuredCells count = fill_unmeasured_cells(table);
+        if (count.filled + count.left > 0)
+            owner.device->log(text(path, ": ", count.filled, " unmeasured cells were filled from measured ones; ",
+                                   count.left, " had none to be filled from and reflect nothing"));
+        return table;
+    }, path, LB_ERROR_FORMAT);
+}
+
+lb_result lb_brdf_load_as_measured(lb_context context, const char* path, lb_brdf* brdf) {
     return create_brdf(context, brdf, [&](const Context&) -> Brdf {
         require(path, "path");
         return io::read_merl(path);

@@ -42,6 +42,7 @@ CALL(lb_context_retain, (handle))
 CALL(lb_context_device_name, (handle, &out.text))
 CALL(lb_context_is_software, (handle, &out.index))
 CALL(lb_brdf_load, (handle, "never_read.binary", &out.brdf))
+CALL(lb_brdf_load_as_measured, (handle, "never_read.binary", &out.brdf))
 CALL(lb_brdf_builtin, (handle, lb_brdf_builtin_name(0), &out.brdf))
 CALL(lb_brdf_create_table, (handle, grey, 3, &out.brdf))
 CALL(lb_brdf_create_lambert, (handle, grey, &out.brdf))
@@ -101,6 +102,7 @@ static const struct call {
     {"lb_context_device_name", CONTEXT, with_lb_context_device_name},
     {"lb_context_is_software", CONTEXT, with_lb_context_is_software},
     {"lb_brdf_load", CONTEXT, with_lb_brdf_load},
+    {"lb_brdf_load_as_measured", CONTEXT, with_lb_brdf_load_as_measured},
     {"lb_brdf_builtin", CONTEXT, with_lb_brdf_builtin},
     {"lb_brdf_create_table", CONTEXT, with_lb_brdf_create_table},
     {"lb_brdf_create_lambert", CONTEXT, with_lb_brdf_create_lambert},

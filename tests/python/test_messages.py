@@ -96,7 +96,7 @@ def objects(context: lightband.Context, scene: lightband.Scene, rendered: lightb
 
 
 RIGHT: dict[str, dict[str, object]] = {
-    "Context.load_brdf": {"path": "x"},
+    "Context.load_brdf": {"path": "x", "fill_unmeasured": True},
     "Context.builtin_brdf": {"name": "x"},
     "Context.table_brdf": {"table": 1},
     "Context.lambert": {"albedo": 0.5},

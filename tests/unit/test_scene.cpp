@@ -12,6 +12,8 @@
 #include "scene/brdf.h"
 #include "scene/camera.h"
 #include "scene/environment.h"
+#include "scene/table_cells.h"
+#include "scene/unmeasured_cells.h"
 
 namespace lightband {
 namespace {
@@ -141,6 +143,76 @@ void linear_lookup_wraps_phi_and_skips_unmeasured_cells(void**) {
     check_close("beside a hole", value(71, Lookup::linear), 7, 1e-9);
     check_close("in a hole, nearest", value(70.5, Lookup::nearest), 0, 0);
     check_close("in a hole, linear", value(91, Lookup::linear), 0, 0);
+}
+
+// ---- Unmeasured cells --------------------------------------------------------------------------------
+
+void set_cell(BrdfTable& table, uint32_t h, uint32_t d, uint32_t p, float value) {
+    std::fill_n(&table.rgb[3 * BrdfTable::cell(h, d, p)], 3, value);
+}
+
+float value_of(const BrdfTable& table, uint32_t h, uint32_t d, uint32_t p) {
+    return table.rgb[3 * BrdfTable::cell(h, d, p)];
+}
+
+// A matte surface of which nothing was measured within 10 degrees of the horizon: it is whole again.
+void unmeasured_grazing_cells_of_a_matte_surface_are_filled(void**) {
+    const double least_cosine = std::cos(80 * pi / 180);
+    BrdfTable table;
+    table.rgb.resize(BrdfTable::cell_count * 3);
+    size_t unmeasured = 0;
+    for (size_t cell = 0; cell < BrdfTable::cell_count; ++cell) {
+        const TableCell at = TableCell::numbered(cell);
+        const bool measured = at.centre().lower_cosine() > least_cosine;
+        std::fill_n(&table.rgb[3 * cell], 3, measured ? float(0.9 / pi) : -1.0f);
+        unmeasured += !measured && at.reaches_above_horizon() ? 1 : 0;
+    }
+    check_vector("before", directional_albedo(table, 85 * pi / 180), Vec3(0), 0);
+    const UnmeasuredCells count = fill_unmeasured_cells(table);
+    assert_int_equal(count.filled, unmeasured);
+    assert_int_equal(count.left, 0);
+    for (const double degrees : {45.0, 80.0, 85.0, 89.5, 89.99})
+        check_vector("filled", directional_albedo(table, degrees * pi / 180), Vec3(0.9), 1e-5);
+    for (size_t cell = 0; cell < BrdfTable::cell_count; ++cell)
+        assert_true(TableCell::numbered(cell).reaches_above_horizon() == (table.rgb[3 * cell] >= 0));
+    assert_int_equal(fill_unmeasured_cells(table).filled, 0);
+}
+
+void holes_are_filled_along_their_arc(void**) {
+    BrdfTable table;
+    table.rgb.assign(BrdfTable::cell_count * 3, 1.0f);
+    for (const uint32_t d : {0, 1, 41, 42, 43}) set_cell(table, 5, d, 60, -1);
+    set_cell(table, 5, 2, 60, 3);
+    set_cell(table, 5, 44, 60, 9);
+    const UnmeasuredCells count = fill_unmeasured_cells(table);
+    assert_int_equal(count.filled, 5);
+    assert_int_equal(count.left, 0);
+    for (const uint32_t d : {0, 1}) check_close("before the first", value_of(table, 5, d, 60), 3, 0);
+    for (const uint32_t d : {41, 42, 43}) check_close("between", value_of(table, 5, d, 60), 1 + 2.0 * (d - 40), 1e-6);
+}
+
+// Below grazing_half_angle, which lies in cell 79 of theta_half, an arc of which nothing was measured stays as it is;
+// beyond, it takes the values of the one inside.
+void arcs_without_a_measured_cell(void**) {
+    BrdfTable table;
+    table.rgb.assign(BrdfTable::cell_count * 3, 1.0f);
+    const auto clear = [&](uint32_t h) {
+        size_t reached = 0;
+        for (uint32_t d = 0; d < BrdfTable::theta_diff_cells; ++d) {
+            set_cell(table, h, d, 90, -1);
+            reached += TableCell{h, d, 90}.reaches_above_horizon() ? 1 : 0;
+        }
+        return reached;
+    };
+    const size_t left = clear(78), filled = clear(85) + clear(86);
+    for (uint32_t d = 0; d < BrdfTable::theta_diff_cells; ++d) set_cell(table, 84, d, 90, 7);
+    const UnmeasuredCells count = fill_unmeasured_cells(table);
+    assert_int_equal(count.left, left);
+    assert_int_equal(count.filled, filled);
+    for (uint32_t d = 0; d < 10; ++d) {
+        check_close("left", value_of(table, 78, d, 90), -1, 0);
+        check_close("from the inner arc", value_of(table, 86, d, 90), 7, 0);
+    }
 }
 
 void nothing_is_reflected_below_the_horizon(void**) {
@@ -336,6 +408,9 @@ int main() {
         cmocka_unit_test(tables_are_reciprocal_and_isotropic),
         cmocka_unit_test(linear_lookup_meets_the_centres),
         cmocka_unit_test(linear_lookup_wraps_phi_and_skips_unmeasured_cells),
+        cmocka_unit_test(unmeasured_grazing_cells_of_a_matte_surface_are_filled),
+        cmocka_unit_test(holes_are_filled_along_their_arc),
+        cmocka_unit_test(arcs_without_a_measured_cell),
         cmocka_unit_test(nothing_is_reflected_below_the_horizon),
         cmocka_unit_test(ggx_is_reciprocal_and_known_at_normal_incidence),
         cmocka_unit_test(albedos_are_what_they_must_be),

@@ -100,9 +100,11 @@ class Context:
     @property
     def is_software(self) -> bool:
         """Whether the device is a software renderer."""
-    def load_brdf(self, path: _Path) -> Brdf:
+    def load_brdf(self, path: _Path, fill_unmeasured: bool = True) -> Brdf:
         """A measured reflectance from a MERL .binary file.
 
+        fill_unmeasured: cells that were not measured are filled from the measured cells of the same theta_half and
+        phi_diff, towards grazing with the last of them; the log callback hears how many. False: they reflect nothing.
         Raises FileError when the file cannot be read, FormatError when it is no MERL file.
         """
     def builtin_brdf(self, name: str) -> Brdf:
@@ -115,7 +117,7 @@ class Context:
         """A measured reflectance from an array.
 
         table: 90 x 90 x 180 x 3 values in 1/steradian, cells (theta_half [quadratic], theta_diff, phi_diff) as in a
-        MERL file, RGB last. A negative value means "not measured". Copied.
+        MERL file, RGB last. A cell with a negative value was not measured and reflects nothing. Copied.
         """
     def lambert(self, albedo: ArrayLike) -> Brdf:
         """A diffuse reflectance, albedo / pi.
