@@ -213,7 +213,8 @@ typedef struct lb_mesh_desc {
 LB_API lb_result lb_mesh_create(lb_context context, const lb_mesh_desc* desc, lb_mesh* mesh);
 
 /* A computed shape about one metre across, centred at the origin: "sphere" (radius 0.5), "plane" (1 x 1, facing
- * +Z), "torus", "knot" (a trefoil tube), "blob" (a smooth bumpy sphere).
+ * +Z), "torus" (a ring around the Y axis: radius 0.34, of its tube 0.14), "knot" (a trefoil tube), "blob" (a
+ * smooth bumpy sphere).
  * resolution: segments around, 8 to 2048; 0: 256. */
 LB_API lb_result lb_mesh_builtin(lb_context context, const char* name, uint32_t resolution, lb_mesh* mesh);
 

@@ -194,6 +194,19 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+// As lightband.h has it: every point of the torus is a tube's radius away from a circle around the Y axis.
+void the_torus_lies_around_the_y_axis(void**) {
+    constexpr double ring = 0.34, tube = 0.14, float_rounding = 1e-7;
+    const Triangles mesh = Triangles::shape("torus", 64);
+    double highest = 0;
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+        const Vec3 p = vertex(mesh.positions, uint32_t(i));
+        check_close("radius of the tube", std::hypot(std::hypot(p.x, p.z) - ring, p.y), tube, float_rounding);
+        highest = std::max(highest, p.y);
+    }
+    check_close("half the height", highest, tube, float_rounding);
+}
+
 // A facet's normal is, by the mean value theorem, close to a mean of the surface's over the triangle: it differs from
 // each corner's by no more than they differ among themselves, up to the next order of the triangle's size, for which a
 // factor two is allowed. Floats tilt a facet by 2^-24 of a metre over its height; slivers at the poles, thinner than
@@ -304,6 +317,7 @@ int main() {
         cmocka_unit_test(computed_normals_weigh_by_area),
         cmocka_unit_test(two_windings_cancel_no_normal),
         cmocka_unit_test(order_for_drawing_changes_the_order_alone),
+        cmocka_unit_test(the_torus_lies_around_the_y_axis),
         cmocka_unit_test(normals_agree_with_facets),
         cmocka_unit_test(shapes_are_closed_and_wound_outwards),
         cmocka_unit_test(shapes_have_their_sizes),
