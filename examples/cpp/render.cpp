@@ -44,9 +44,9 @@ static void render(const std::string& map, bool software) {
         frame.render(scene);
 
         const lb_frame_stats stats = frame.stats();
-        std::printf("roughness %.1f: bandwidth %.3f cycles/pixel, %4.1f %% of the pixels shaded, error %.2f %% in %.0f ms\n", roughness,
-                    mean_bandwidth(frame), 100.0 * stats.shaded_pixels / stats.covered_pixels, 100 * stats.error,
-                    stats.milliseconds);
+        const double shaded = static_cast<double>(stats.shaded_pixels) / static_cast<double>(stats.covered_pixels);
+        std::printf("roughness %.1f: bandwidth %.3f cycles/pixel, %4.1f %% of the pixels shaded, error %.2f %% in %.0f ms\n",
+                    roughness, mean_bandwidth(frame), 100 * shaded, 100 * stats.error, stats.milliseconds);
         frame.save("metal-" + std::to_string(roughness).substr(0, 3) + ".exr", "color,bandwidth_image");
     }
 }

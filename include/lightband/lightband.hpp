@@ -305,8 +305,8 @@ private:
 
 struct ContextOptions {
     uint32_t device = LB_DEVICE_HARDWARE;
-    std::optional<std::string> cache_path;  // none: the user's cache folder; "": no cache
-    Log log;                                // lives as long as the context and everything made from it
+    std::optional<std::string> cache_path = std::nullopt;  // none: the user's cache folder; "": no cache
+    Log log = nullptr;                                     // lives as long as the context and all that is made from it
 };
 
 // One OpenGL device; everything else is made by it and keeps it alive.
