@@ -217,7 +217,7 @@ void tables_hold_the_models_at_cell_centres(void**) {
 // model; cloth, whose sheen loses a tenth of its light in the last tenth of a degree, 13 to 16 % more.
 void tables_keep_their_albedo_to_grazing(void**) {
     constexpr double least = 0.9, most = 1.18;
-    for (const BuiltinModel& material : builtin_models()) {
+    for (const BuiltinModel& material : builtin_models) {
         const auto model = material.make();
         const Brdf table = builtin_material(material.name, "");
         for (const double degrees : {80.0, 89.0, 89.5, 89.9, 89.99}) {
@@ -234,7 +234,7 @@ void tables_keep_their_albedo_to_grazing(void**) {
 
 // Cells that lie mirrored in phi_diff have light and eye exchanged.
 void tables_are_reciprocal_across_the_horizon(void**) {
-    for (const BuiltinModel& material : builtin_models()) {
+    for (const BuiltinModel& material : builtin_models) {
         const BrdfTable table = builtin_material(material.name, "");
         for (size_t cell = 0; cell < BrdfTable::cell_count; ++cell) {
             const size_t phi = cell % BrdfTable::phi_diff_cells;
