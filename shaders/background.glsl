@@ -1,9 +1,9 @@
 // What the camera sees past the meshes: the map itself.
 #include "common.glsl"
+#include "light.glsl"
 #include "rays.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler2D map;
 layout(binding = 1) uniform usampler2D materials;
 layout(binding = 0, rgba32f) writeonly uniform image2D radiances;
 
@@ -11,5 +11,5 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy), size = textureSize(materials, 0);
     if (any(greaterThanEqual(at, size)) || texelFetch(materials, at, 0).r != 0u) return;
     vec3 direction = normalize(ray_through(vec2(at)));
-    imageStore(radiances, at, vec4(textureLod(map, latitude_longitude(direction), 0.0).rgb, 0.0));
+    imageStore(radiances, at, vec4(light_from(direction).rgb, 0.0));
 }

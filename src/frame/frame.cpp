@@ -88,7 +88,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
     while (!rounds(&job, forecast)) plan_from_pilots(job, &forecast);
     if (settings.accumulate() > 1) accumulate(&job);
     if (settings.background()) {
-        passes::background(*device_, scene, width_, height_, next.gbuffer, next.shading);
+        passes::background(*device_, scene, width_, height_, next.gbuffer, settings.environment_lookup(), next.shading);
         next.plan.finished("background", "the map behind the meshes", 0, pixels(), "pixels");
     }
     device_->check("rendering a frame");

@@ -106,9 +106,9 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
 }
 
 void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
-                const Shading& target) {
+                Lookup lookup, const Shading& target) {
     const gl::Functions& gl = device.gl();
-    const gl::Program& program = device.compute("background");
+    const gl::Program& program = device.compute("background", lookup == Lookup::nearest ? "ENVIRONMENT_NEAREST" : "");
     set_rays(program, gbuffer.rays);
     program.use();
     bind_texture(gl, 0, scene.light->texture());

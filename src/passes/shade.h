@@ -19,6 +19,6 @@ void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, co
            const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn);
 
 void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
-                const Shading& target);
+                Lookup lookup, const Shading& target);
 
 }  // namespace lightband::passes

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import MutableMapping
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
@@ -113,3 +114,20 @@ def test_settings_take_hold(context: lightband.Context, scene: lightband.Scene) 
     frame.render(scene)
     assert set(frame.sample_count[frame.material != 0].tolist()) == {12}
     assert frame.stats.samples == frame.sample_count.sum(dtype=int)
+
+
+def test_environment_lookup_holds_for_the_background(context: lightband.Context) -> None:
+    """One lit texel among eight: looked up as the nearest, it is a square with sharp edges."""
+    texels = np.zeros((2, 4, 3), np.float32)
+    texels[0, 1] = 1  # longitudes 0 to 90 degrees (from +Z towards +X), above the horizon
+    scene = context.scene()
+    scene.environment = context.environment(texels)
+    scene.camera(eye=(0, 0, 0), target=(0, 0, 1), fov_y=1)  # +X is to the left
+    expected = np.zeros((4, 4))
+    expected[:2, :2] = 1
+    frame = context.frame(4, 4, environment_lookup="nearest", background="environment")
+    frame.render(scene)
+    np.testing.assert_array_equal(frame.color[..., 0], expected)
+    frame["environment_lookup"] = "linear"
+    frame.render(scene)
+    assert len(np.unique(frame.color[..., 0])) > 2
