@@ -40,8 +40,24 @@ HandleTable<const HostArray>& arrays() {
     return table;
 }
 
+// A message that is too long loses its middle: it begins with the name of a file or an argument, which alone may be as long
+// as the caller likes, and ends in the reason.
 lb_result fail(lb_result code, const char* message) noexcept {
-    std::strncpy(last_message, message, sizeof last_message - 1);
+    constexpr char gap[] = " ... ";
+    constexpr size_t gap_length = sizeof gap - 1, longest = sizeof last_message - 1, part = (longest - gap_length) / 2;
+    const size_t length = std::strlen(message);
+    if (length <= longest) {
+        std::memcpy(last_message, message, length + 1);
+        return code;
+    }
+    // Neither cut lies within a character of UTF-8, whose later bytes begin with the bits 10.
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+    size_t head = part, tail = length - part;
+    while (head > 0 && continues(message[head])) --head;
+    while (tail < length && continues(message[tail])) ++tail;
+    std::memcpy(last_message, message, head);
+    std::memcpy(last_message + head, gap, gap_length);
+    std::memcpy(last_message + head + gap_length, message + tail, length - tail + 1);
     return code;
 }
 

@@ -46,11 +46,12 @@ Camera Camera::from(const lb_camera_desc& desc) {
     camera.near_plane = number_or(desc.near_plane, 1e-3 * distance, "near_plane");
     camera.far_plane = number_or(desc.far_plane, 1e3 * distance, "far_plane");
     // Beyond these a depth, or its reciprocal times another, leaves the range of normal floats.
-    constexpr double nearest = 1e-30, farthest = 1e30;
+    // As float, in which they come, so that the limits themselves are accepted.
+    constexpr float nearest = 1e-30f, farthest = 1e30f;
     if (!(camera.near_plane >= nearest))
-        throw Error(LB_ERROR_INVALID_ARGUMENT, text("camera: near_plane is ", camera.near_plane, "; it must be at least ", nearest));
+        throw Error(LB_ERROR_INVALID_ARGUMENT, text("camera: near_plane is ", camera.near_plane, "; it must be at least 1e-30"));
     if (!(camera.far_plane <= farthest))
-        throw Error(LB_ERROR_INVALID_ARGUMENT, text("camera: far_plane is ", camera.far_plane, "; it must be at most ", farthest));
+        throw Error(LB_ERROR_INVALID_ARGUMENT, text("camera: far_plane is ", camera.far_plane, "; it must be at most 1e+30"));
     if (!(camera.near_plane < camera.far_plane))
         throw Error(LB_ERROR_INVALID_ARGUMENT,
                     text("camera: near_plane ", camera.near_plane, " must be below far_plane ", camera.far_plane));
