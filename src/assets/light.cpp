@@ -24,14 +24,19 @@ Light::Light(gl::DevicePtr device, RgbImage map)
     if (map_.width > limit || map_.height > limit)
         throw Error(LB_ERROR_LIMIT, text("a map of ", map_.width, " x ", map_.height, " exceeds the device's textures of ", limit));
     texture_ = gl::Texture::image(device_->gl(), GL_RGBA32F, map_.width, map_.height);
-    std::vector<float> texels(size_t(map_.width) * map_.height * 4);
-    for (uint32_t y = 0; y < map_.height; ++y)
-        for (uint32_t x = 0; x < map_.width; ++x) {
-            float* texel = &texels[(size_t(y) * map_.width + x) * 4];
-            for (int c = 0; c < 3; ++c) texel[c] = float(map_.texel(x, y)[c] / unit_);
-            texel[3] = float(sampler_.texel_pdf(x, y));
-        }
-    texture_.upload(map_.width, map_.height, GL_RGBA, GL_FLOAT, texels.data());
+    // Some rows at a time: a second copy of a large map would take 2 GiB.
+    constexpr uint32_t rows_at_once = 64;
+    std::vector<float> texels(size_t(map_.width) * rows_at_once * 4);
+    for (uint32_t first = 0; first < map_.height; first += rows_at_once) {
+        const uint32_t rows = std::min(rows_at_once, map_.height - first);
+        for (uint32_t y = 0; y < rows; ++y)
+            for (uint32_t x = 0; x < map_.width; ++x) {
+                float* texel = &texels[(size_t(y) * map_.width + x) * 4];
+                for (int c = 0; c < 3; ++c) texel[c] = float(map_.texel(x, first + y)[c] / unit_);
+                texel[3] = float(sampler_.texel_pdf(x, first + y));
+            }
+        texture_.upload_rows(first, map_.width, rows, GL_RGBA, GL_FLOAT, texels.data());
+    }
     texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     texture_.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     texture_.parameter(GL_TEXTURE_WRAP_S, GL_REPEAT);

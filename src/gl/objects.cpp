@@ -97,8 +97,12 @@ Texture::~Texture() {
 }
 
 void Texture::upload(uint32_t width, uint32_t height, GLenum format, GLenum type, const void* pixels) const {
+    upload_rows(0, width, height, format, type, pixels);
+}
+
+void Texture::upload_rows(uint32_t first, uint32_t width, uint32_t rows, GLenum format, GLenum type, const void* pixels) const {
     gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl_->TextureSubImage2D(name_, 0, 0, 0, GLsizei(width), GLsizei(height), format, type, pixels);
+    gl_->TextureSubImage2D(name_, 0, 0, GLint(first), GLsizei(width), GLsizei(rows), format, type, pixels);
 }
 
 void Texture::read(uint32_t level, GLenum format, GLenum type, size_t bytes, void* pixels) const {

@@ -66,6 +66,7 @@ public:
     static Texture of_buffer(const Functions& gl, GLenum format, const Buffer& buffer);
 
     void upload(uint32_t width, uint32_t height, GLenum format, GLenum type, const void* pixels) const;
+    void upload_rows(uint32_t first, uint32_t width, uint32_t rows, GLenum format, GLenum type, const void* pixels) const;
     void read(uint32_t level, GLenum format, GLenum type, size_t bytes, void* pixels) const;
     void parameter(GLenum name, GLint value) const;
     size_t bytes() const { return bytes_; }
