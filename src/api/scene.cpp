@@ -197,9 +197,7 @@ lb_result lb_environment_load(lb_context context, const char* path, lb_environme
     return create_environment(context, environment, [&](const Context& owner) {
         require(path, "path");
         RgbImage map = io::read_image(path);
-        if (const size_t count = remove_ringing(&map))
-            owner.device->log(text(path, ": ", count, " values between ", -ringing, " and 0, the ringing of its lossy compression, ",
-                                   "were set to 0"));
+        for (const std::string& note : map.notes) owner.device->log(text(path, ": ", note));
         check_radiance(map, path, LB_ERROR_FORMAT);
         return map;
     });
@@ -210,7 +208,7 @@ lb_result lb_environment_create(lb_context context, uint32_t width, uint32_t hei
     return create_environment(context, environment, [&](const Context&) {
         require(rgb, "rgb");
         check_map_size(width, height);
-        RgbImage map{width, height, std::vector<float>(rgb, rgb + size_t(width) * height * 3), false};
+        RgbImage map{width, height, std::vector<float>(rgb, rgb + size_t(width) * height * 3), {}};
         check_radiance(map, "rgb", LB_ERROR_INVALID_ARGUMENT);
         return map;
     });

@@ -12,7 +12,7 @@ struct RgbImage {
     uint32_t width = 0;
     uint32_t height = 0;
     std::vector<float> rgb;  // height * width * 3, linear radiance
-    bool lossy = false;      // it came through a compression that rings (OpenEXR's DWAA, DWAB)
+    std::vector<std::string> notes = {};  // what a reader had to change in it, for the log; one sentence each
 
     const float* texel(uint32_t x, uint32_t y) const { return &rgb[(size_t(y) * width + x) * 3]; }
 };

@@ -5,9 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "base/error.h"
+#include "io/colour_space.h"
 #include "io/image_file.h"
 #include "io/printable.h"
 
@@ -38,13 +40,15 @@ public:
         return texel;
     }
 
-    // The text up to the next newline, which is consumed too.
+    // The text up to the next newline, which is consumed too; without the carriage return of CR LF.
     std::string_view take_line() {
         const auto start = bytes_.begin() + position_;
         const auto end = std::find(start, bytes_.end(), '\n');
         if (end == bytes_.end()) fail("Radiance header is truncated: a line has no end");
         position_ = size_t(end - bytes_.begin()) + 1;
-        return {reinterpret_cast<const char*>(bytes_.data()) + (start - bytes_.begin()), size_t(end - start)};
+        std::string_view line(reinterpret_cast<const char*>(bytes_.data()) + (start - bytes_.begin()), size_t(end - start));
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        return line;
     }
 
     // The next texel without consuming it; zeros beyond the end.
@@ -77,41 +81,79 @@ std::string_view take_word(std::string_view& line) {
     return word;
 }
 
-// A positive finite factor. (from_chars reads the same digits in every locale.)
+// The number that the whole word is, as atof reads it but in every locale: a plus may precede it.
+bool parse_number(std::string_view word, double* number) {
+    if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), *number);
+    return error == std::errc() && end == word.data() + word.size() && std::isfinite(*number);
+}
+
 double parse_factor(std::string_view word, std::string_view line, const Reader& reader) {
     double factor = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), factor);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(factor) || factor <= 0)
+    if (!parse_number(word, &factor) || factor < 0)
         reader.fail(text("Radiance header line '", printable(line), "' does not hold positive numbers"));
     return factor;
 }
 
 // What the header says of the values: stored = radiance * exposure, per channel.
-std::array<double, 3> parse_header(Reader& reader) {
-    const std::string_view first = reader.take_line();
-    if (!starts_with(first, "#?RADIANCE") && !starts_with(first, "#?RGBE"))
-        reader.fail("Radiance header does not begin with #?RADIANCE or #?RGBE");
-
+struct Header {
     std::array<double, 3> exposure = {1, 1, 1};
-    bool has_format = false;
-    for (std::string_view line = reader.take_line(); !line.empty(); line = reader.take_line()) {
-        std::string_view value = line.substr(std::min(line.find('='), line.size() - 1) + 1);
-        if (starts_with(line, "FORMAT=")) {
-            const std::string_view format = take_word(value);
-            if (format != "32-bit_rle_rgbe")
-                reader.fail(text("Radiance format '", printable(format), "' is not supported, only '32-bit_rle_rgbe'"));
-            has_format = true;
-        } else if (starts_with(line, "EXPOSURE=")) {  // may occur several times: the factors multiply
-            const double factor = parse_factor(take_word(value), line, reader);
-            for (double& channel : exposure) channel *= factor;
-        } else if (starts_with(line, "COLORCORR=")) {  // the same, with one factor per channel
-            for (double& channel : exposure) channel *= parse_factor(take_word(value), line, reader);
-        }
+    bool is_xyz = false;
+    std::optional<Chromaticities> primaries;
+    std::vector<std::string> notes;
+};
+
+// "PRIMARIES= rx ry gx gy bx by wx wy"
+Chromaticities parse_primaries(std::string_view value, std::string_view line, const Reader& reader) {
+    std::array<double, 8> xy;
+    for (double& number : xy)
+        if (!parse_number(take_word(value), &number))
+            reader.fail(text("Radiance header line '", printable(line), "' does not hold eight numbers"));
+    return {{xy[0], xy[1]}, {xy[2], xy[3]}, {xy[4], xy[5]}, {xy[6], xy[7]}};
+}
+
+void parse_line(std::string_view line, const Reader& reader, Header* header) {
+    std::string_view value = line.substr(std::min(line.find('='), line.size() - 1) + 1);
+    if (starts_with(line, "FORMAT=")) {
+        const std::string_view format = take_word(value);
+        header->is_xyz = format == "32-bit_rle_xyze";
+        if (format != "32-bit_rle_rgbe" && !header->is_xyz)
+            reader.fail(text("Radiance format '", printable(format),
+                             "' is not supported, only '32-bit_rle_rgbe' and '32-bit_rle_xyze'"));
+    } else if (starts_with(line, "EXPOSURE=")) {  // may occur several times: the factors multiply
+        const double factor = parse_factor(take_word(value), line, reader);
+        if (factor == 0) header->notes.push_back("its header line EXPOSURE=0, which FreeImage writes, was taken for none");
+        for (double& channel : header->exposure) channel *= factor == 0 ? 1 : factor;
+    } else if (starts_with(line, "COLORCORR=")) {  // the same, with one factor per channel
+        for (double& channel : header->exposure) channel *= parse_factor(take_word(value), line, reader);
+    } else if (starts_with(line, "PRIMARIES=")) {
+        header->primaries = parse_primaries(value, line, reader);
     }
-    if (!has_format) reader.fail("Radiance header has no FORMAT line");
-    for (const double channel : exposure)
+}
+
+// As Radiance's checkheader: whatever program wrote it, and where no format is named, RGBE.
+Header parse_header(Reader& reader) {
+    if (!starts_with(reader.take_line(), "#?")) reader.fail("Radiance header does not begin with #?");
+    Header header;
+    for (std::string_view line = reader.take_line(); !line.empty(); line = reader.take_line())
+        parse_line(line, reader, &header);
+    for (const double channel : header.exposure)
         if (!std::isfinite(channel) || channel <= 0) reader.fail("the product of the EXPOSURE lines is out of range");
-    return exposure;
+    return header;
+}
+
+// XYZE is CIE XYZ, whose Y is in candelas per square metre (color.h: WHTEFFICACY lumens per watt of white light), and whose
+// primaries name the white alone. Without PRIMARIES, RGBE is Rec. 709, as everyone but Radiance writes it.
+void convert(const Header& header, const std::string& name, RgbImage* image) {
+    constexpr double lumens_per_watt = 179;
+    Chromaticities from = header.primaries.value_or(rec709);
+    if (header.is_xyz) {
+        from = cie_xyz;
+        if (header.primaries) from.white = header.primaries->white;
+    }
+    std::optional<glm::dmat3> matrix = to_rec709(from, std::nullopt, name);
+    if (header.is_xyz) matrix = matrix.value_or(glm::dmat3(1)) / lumens_per_watt;
+    if (matrix) convert_colours(*matrix, image);
 }
 
 // ---- Resolution ---------------------------------------------------------------------------------
@@ -240,10 +282,11 @@ double decode(uint8_t mantissa, uint8_t exponent) {
 // Bytes after the last scanline are ignored, as Radiance does.
 RgbImage parse_hdr(const std::vector<uint8_t>& bytes, const std::string& name) {
     Reader reader(bytes, name);
-    const std::array<double, 3> exposure = parse_header(reader);
+    const Header header = parse_header(reader);
     const Layout layout = parse_resolution(reader);
 
     RgbImage image;
+    image.notes = header.notes;
     image.width = layout.width();
     image.height = layout.height();
     image.rgb.resize(size_t(image.width) * image.height * 3);
@@ -253,13 +296,14 @@ RgbImage parse_hdr(const std::vector<uint8_t>& bytes, const std::string& name) {
         for (uint32_t x = 0; x < layout.fast.size; ++x) {
             float* texel = &image.rgb[layout.texel(y, x) * 3];
             for (size_t channel = 0; channel < 3; ++channel) {
-                const double value = decode(scanline[x][channel], scanline[x][3]) / exposure[channel];
+                const double value = decode(scanline[x][channel], scanline[x][3]) / header.exposure[channel];
                 if (value > std::numeric_limits<float>::max())
                     reader.fail(text("a texel divided by the EXPOSURE exceeds the range of float32: ", value));
                 texel[channel] = float(value);
             }
         }
     }
+    convert(header, name, &image);
     return image;
 }
 

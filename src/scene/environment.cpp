@@ -16,17 +16,6 @@ void check_radiance(const RgbImage& map, const std::string& source, lb_result co
     }
 }
 
-size_t remove_ringing(RgbImage* map) {
-    if (!map->lossy) return 0;
-    size_t count = 0;
-    for (float& value : map->rgb)
-        if (value < 0 && value >= -ringing) {
-            value = 0;
-            ++count;
-        }
-    return count;
-}
-
 Vec2 latitude_longitude(const Vec3& d) {
     const double latitude = std::atan2(d.y, std::hypot(d.x, d.z));
     return {0.5 - std::atan2(d.x, d.z) / (2 * pi), 0.5 - latitude / pi};

@@ -17,11 +17,6 @@ constexpr float largest_radiance = 1e15f;
 // Throws code when a texel is negative, not finite or above largest_radiance; the message names source, texel and value.
 void check_radiance(const RgbImage& map, const std::string& source, lb_result code);
 
-// A lossy map rings: beside bright texels, dark ones come out slightly negative. Sets values in [-ringing, 0) of such a map to
-// 0 and returns how many there were; other maps stay as they are.
-constexpr float ringing = 0.01f;  // DWA at its default level leaves errors of a few thousandths near black
-size_t remove_ringing(RgbImage* map);
-
 Vec2 latitude_longitude(const Vec3& direction);       // unit direction -> (u, v) in [0, 1]^2, v down
 Vec3 direction_of(const Vec2& latitude_longitude_uv);
 

@@ -1,125 +1,23 @@
 // OpenEXR pictures of every kind, written by OpenEXR and read by parse_exr.
 #include <ImfArray.h>
-#include <ImfChannelList.h>
 #include <ImfDeepScanLineOutputFile.h>
-#include <ImfFrameBuffer.h>
 #include <ImfInputFile.h>
 #include <ImfMultiPartOutputFile.h>
-#include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
-#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
-#include <ImfTiledOutputFile.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <functional>
 
+#include "exr_testing.h"
 #include "io/file.h"
-#include "io/image_file.h"
-#include "io_testing.h"
 
 namespace {
 
 using namespace lightband;
 using namespace lightband::testing;
-
-// Odd sizes, more than one tile and more than one block of scanlines; a window away from the origin.
-constexpr int width = 37, height = 67, tile_size = 16;
-const Imath::Box2i window({-5, 7}, {-5 + width - 1, 7 + height - 1});
-const Imath::Box2i display({0, 0}, {99, 99});
-
-RgbImage parse(const Bytes& bytes) {
-    return io::parse_exr(bytes, "picture.exr");
-}
-
-using Value = std::function<double(int x, int y, int channel)>;
-
-// Different at every place and exact in half, float, uint and the 24 bits of PXR24: at most 10 significant bits.
-double counted(int x, int y, int channel) {
-    return ((x + 8 * y) % 1024) << channel;
-}
-
-// Constant over large parts, in powers of two: the lossy compressions must not move a value by half an octave.
-double quadrants(int x, int y, int channel) {
-    return std::ldexp(1.0, (x < width / 2 ? 0 : 1) + (y < height / 2 ? 0 : 2) + 4 * channel);
-}
-
-// The values of one channel in the memory layout of a pixel type, rows top-down.
-Bytes plane(Imf::PixelType type, int channel, const Value& value) {
-    Bytes bytes;
-    const auto append = [&](auto number) {
-        const auto* first = reinterpret_cast<const uint8_t*>(&number);
-        bytes.insert(bytes.end(), first, first + sizeof number);
-    };
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const double v = value(x, y, channel);
-            if (type == Imf::UINT) append(uint32_t(v));
-            if (type == Imf::HALF) append(Imath::half(float(v)));
-            if (type == Imf::FLOAT) append(float(v));
-        }
-    return bytes;
-}
-
-struct Kind {
-    Imf::PixelType type = Imf::FLOAT;
-    Imf::Compression compression = Imf::ZIP_COMPRESSION;
-    bool tiled = false;
-    std::vector<std::string> channels = {"R", "G", "B"};
-};
-
-Imf::Header header_of(const Kind& kind) {
-    Imf::Header header(display, window);
-    header.compression() = kind.compression;
-    for (const std::string& name : kind.channels) header.channels().insert(name, Imf::Channel(kind.type));
-    if (kind.tiled) header.setTileDescription(Imf::TileDescription(tile_size, tile_size));
-    return header;
-}
-
-Bytes written(Imf::StdOSStream& stream) {
-    const std::string text = stream.str();
-    return Bytes(text.begin(), text.end());
-}
-
-Bytes make_exr(const Kind& kind, const Value& value) {
-    Imf::StdOSStream stream;
-    {
-        const Imf::Header header = header_of(kind);
-        std::vector<Bytes> planes;
-        for (size_t i = 0; i < kind.channels.size(); ++i) planes.push_back(plane(kind.type, int(i), value));
-        Imf::FrameBuffer buffer;
-        for (size_t i = 0; i < kind.channels.size(); ++i)
-            buffer.insert(kind.channels[i], Imf::Slice::Make(kind.type, planes[i].data(), window));
-        if (kind.tiled) {
-            Imf::TiledOutputFile file(stream, header);
-            file.setFrameBuffer(buffer);
-            file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
-        } else {
-            Imf::OutputFile file(stream, header);
-            file.setFrameBuffer(buffer);
-            file.writePixels(height);
-        }
-    }
-    return written(stream);
-}
-
-void expect_size(const RgbImage& image) {
-    assert_int_equal(image.width, width);
-    assert_int_equal(image.height, height);
-    assert_int_equal(image.rgb.size(), size_t(width) * height * 3);
-}
-
-void expect_values(const RgbImage& image, const Value& value) {
-    expect_size(image);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            for (int channel = 0; channel < 3; ++channel)
-                assert_float_equal(image.texel(x, y)[channel], value(x, y, channel), 0);
-}
 
 // ---- Good pictures ------------------------------------------------------------------------------
 
@@ -176,7 +74,8 @@ void test_luminance_chroma(void**) {
     for (int i = 0; i < even_width * even_height; ++i) pixels.push_back(colour(i / even_width));
     Imf::StdOSStream stream;
     {
-        Imf::Header header(display, Imath::Box2i({2, 4}, {2 + even_width - 1, 4 + even_height - 1}));
+        const Imath::Box2i even({2, 4}, {2 + even_width - 1, 4 + even_height - 1});
+        Imf::Header header(even, even);
         Imf::RgbaOutputFile file(stream, header, Imf::WRITE_YC);
         file.setYCRounding(10, 10);  // all bits of a half
         file.setFrameBuffer(Imf::ComputeBasePointer(pixels.data(), header.dataWindow()), 1, even_width);
@@ -223,6 +122,8 @@ void test_first_part_with_colour(void**) {
     }
     const Bytes bytes = written(stream);
     expect_values(parse(bytes), counted);
+    expect_values(io::parse_exr(bytes, "picture.exr", "colour"), counted);
+    expect_error(LB_ERROR_FORMAT, {"\"depth\"", "there are: colour"}, [&] { io::parse_exr(bytes, "picture.exr", "depth"); });
     expect_truncation_is_an_error(bytes, 997, parse);
 }
 
@@ -268,6 +169,17 @@ void test_sizes(void**) {
     Imf::Header tiled(64, 64);
     tiled.setTileDescription(Imf::TileDescription(16385, 64));
     expect_error(LB_ERROR_FORMAT, {"tiles of 16385 x 64"}, [&] { parse(header_only(tiled)); });
+    Imf::Header display_window(Imath::Box2i({0, 0}, {16384, 0}), Imath::Box2i({0, 0}, {3, 3}));
+    expect_error(LB_ERROR_FORMAT, {"display window of 16385 x 1"}, [&] { parse(header_only(display_window)); });
+    // A tile is decoded as a whole, with all its channels, whatever is asked of it.
+    Imf::Header one_tile(8192, 8192);
+    one_tile.setTileDescription(Imf::TileDescription(8192, 8192));
+    expect_error(LB_ERROR_FORMAT, {"chunk of 8192 x 8192 texels of 12 bytes"}, [&] { parse(header_only(one_tile)); });
+    Imf::Header specks(8192, 8192);
+    specks.setTileDescription(Imf::TileDescription(64, 64));
+    Bytes bytes = header_only(specks);
+    bytes.resize(bytes.size() - 4096);
+    expect_error(LB_ERROR_FORMAT, {}, [&] { parse(bytes); });
 }
 
 void test_attribute_beyond_the_end(void**) {

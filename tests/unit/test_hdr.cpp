@@ -106,6 +106,41 @@ void test_exposure_is_divided_out(void**) {
     assert_float_equal(image.rgb[2], stored / 2.0f, 0);
 }
 
+// What Radiance's own getinfo and checkheader take.
+void test_headers_of_many_programs(void**) {
+    const std::string format = "FORMAT=32-bit_rle_rgbe";
+    const std::vector<std::string> headers = {
+        "#?RADIANCE\r\n" + format + "\r\n\r\n-Y 1 +X 1\r\n",
+        "#?RADIANCE\n" + format + "\n\r\n-Y 1 +X 1\n",
+        "#?RADIANCE\nEXPOSURE=+1\n" + format + "\n\n-Y 1 +X 1\n",
+        "#?RADIANCE\nEXPOSURE= +1e0\r\n" + format + "\n\n-Y 1 +X 1\n",
+        "#?RADIANCE\n\n-Y 1 +X 1\n",
+        "#?STITCHER\n" + format + "\n\n-Y 1 +X 1\n",
+        "#?\nCOLORCORR=+1 1 1\n\n-Y 1 +X 1\n",
+        "#?RADIANCE\n" + format + "\nEXPOSURE=0\n\n-Y 1 +X 1\n",
+    };
+    for (const std::string& header : headers) expect_texel(parse(header + Bytes{128, 64, 32, 129}), 0, 0, {128, 64, 32, 129});
+    assert_int_equal(parse(headers.back() + Bytes{128, 64, 32, 129}).notes.size(), 1);
+}
+
+RgbImage parse_texel(const std::string& lines) {
+    return parse("#?RADIANCE\n" + lines + "\n\n-Y 1 +X 1\n" + Bytes{128, 128, 128, 129});
+}
+
+void expect_colour(const RgbImage& image, const std::array<double, 3>& expected, double tolerance) {
+    for (size_t c = 0; c < 3; ++c) assert_float_equal(image.rgb[c], expected[c], tolerance);
+}
+
+void test_primaries(void**) {
+    const double grey = 128.5 / 128, rounding = grey * 1e-6;
+    // White stays white, whatever the primaries: that is what the adaptation is for.
+    expect_colour(parse_texel("PRIMARIES= .7347 .2653 0 1 .0001 -.077 .32168 .33767"), {grey, grey, grey}, rounding);
+    expect_colour(parse_texel("PRIMARIES= .640 .330 .290 .600 .150 .060 .333 .333"), {grey, grey, grey}, rounding);
+    expect_colour(parse_texel("PRIMARIES=0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329"), {grey, grey, grey}, 0);
+    // X = Y = Z is equal energy, white; 179 candelas per square metre of it are 1 watt per steradian and square metre.
+    expect_colour(parse_texel("FORMAT=32-bit_rle_xyze"), {grey / 179, grey / 179, grey / 179}, rounding / 179);
+}
+
 // For scanline s and position p along it: the column and the row from the top, in an image of 3 x 5 texels.
 struct Orientation {
     const char* resolution;
@@ -214,10 +249,14 @@ void test_bad_headers(void**) {
     const Bytes texel = {9, 8, 7, 130};
     const std::string end = "\n-Y 1 +X 1\n";
     const std::string format = "FORMAT=32-bit_rle_rgbe\n";
-    expect_bad({"picture.hdr", "#?RADIANCE"}, "#?RADIENCE\n" + format + end + texel);
-    expect_bad({"no FORMAT"}, "#?RADIANCE\n" + end + texel);
-    expect_bad({"32-bit_rle_xyze", "not supported"}, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n" + end + texel);
-    for (const char* number : {"", "0", "-1", "nan", "inf", "1e999", "two", "1x"})
+    expect_bad({"picture.hdr", "#?"}, "?#RADIANCE\n" + format + end + texel);
+    expect_bad({"32-bit_rle_spec", "not supported"}, "#?RADIANCE\nFORMAT=32-bit_rle_spec\n" + end + texel);
+    for (const char* line : {"PRIMARIES=0.64 0.33", "PRIMARIES=a b c d e f g h"})
+        expect_bad({"PRIMARIES", "eight numbers"}, "#?RADIANCE\n" + format + line + "\n" + end + texel);
+    expect_bad({"white", "adapt"}, "#?RADIANCE\nPRIMARIES= .64 .33 .3 .6 .15 .06 .3 0\n" + end + texel);
+    expect_bad({"one line"}, "#?RADIANCE\nPRIMARIES= .6 .3 .4 .2 .2 .1 .33 .33\n" + end + texel);
+    expect_bad({"product", "EXPOSURE"}, "#?RADIANCE\n" + format + "COLORCORR=0 1 1\n" + end + texel);
+    for (const char* number : {"", "-1", "-0.5", "+-1", "+", "nan", "inf", "1e999", "two", "1x"})
         expect_bad({"EXPOSURE=", "positive"}, "#?RADIANCE\n" + format + "EXPOSURE=" + number + "\n" + end + texel);
     expect_bad({"COLORCORR=1 2", "positive"}, "#?RADIANCE\n" + format + "COLORCORR=1 2\n" + end + texel);
     expect_bad({"product", "EXPOSURE"}, "#?RADIANCE\n" + format + "EXPOSURE=1e200\nEXPOSURE=1e200\n" + end + texel);
@@ -269,6 +308,8 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(test_values),
         cmocka_unit_test(test_exposure_is_divided_out),
+        cmocka_unit_test(test_headers_of_many_programs),
+        cmocka_unit_test(test_primaries),
         cmocka_unit_test(test_orientations),
         cmocka_unit_test(test_flat),
         cmocka_unit_test(test_component_runs),

@@ -1,19 +1,25 @@
 // Whole files, MERL tables, telling pictures apart, and the writers. (Radiance: test_hdr.cpp; OpenEXR: test_exr.cpp.)
 #include <ImfChannelList.h>
 #include <ImfCompression.h>
+#include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
 #include <png.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <cfloat>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include "io/display.h"
 #include "io/file.h"
 #include "io/image_file.h"
 #include "io/merl.h"
@@ -72,30 +78,84 @@ void test_read_limits(void**) {
     write_file(path, Bytes(1000));
     assert_int_equal(read_file(path, 1000).size(), 1000);
     expect_error(LB_ERROR_FORMAT, {path, "1000 bytes", "limit of 999"}, [&] { read_file(path, 999); });
-    // A device announces no size; reading stops at the limit all the same.
-    expect_error(LB_ERROR_FORMAT, {"/dev/zero", "limit of 1000000"}, [] { read_file("/dev/zero", 1000000); });
-    assert_int_equal(read_file("/dev/null", 0).size(), 0);
+    // It announces no size, and holds this program's name.
+    assert_true(read_file("/proc/self/comm", 100).size() > 1);
+    expect_error(LB_ERROR_FORMAT, {"/proc/self/comm", "limit of 2"}, [] { read_file("/proc/self/comm", 2); });
 }
 
 void test_read_failures(void**) {
     ScratchFolder folder;
     const std::string missing = folder.file("missing");
     expect_error(LB_ERROR_FILE, {missing, "No such file"}, [&] { read_file(missing, 10); });
-    expect_error(LB_ERROR_FILE, {"directory"}, [&] { read_file(folder.file(""), 1 << 20); });
+}
+
+// What is not a regular file: made in the folder where it can be, with the word that messages have for it.
+std::vector<std::pair<std::string, const char*>> things_that_are_no_files(const ScratchFolder& folder) {
+    const std::string pipe = folder.file("pipe"), socket = folder.file("socket"), inner = folder.file("folder");
+    assert_int_equal(mkfifo(pipe.c_str(), 0600), 0);
+    const int listener = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address = {};
+    address.sun_family = AF_UNIX;
+    socket.copy(address.sun_path, sizeof address.sun_path - 1);
+    assert_int_equal(bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ::close(listener);  // its name stays
+    std::filesystem::create_directory(inner);
+    std::filesystem::create_symlink(pipe, folder.file("link"));
+    return {{pipe, "a pipe"},       {socket, "a socket"},     {inner, "a directory"}, {folder.file("link"), "a pipe"},
+            {"/dev/zero", "a device"}, {"/dev/null", "a device"}};
+}
+
+// Nothing of them is waited for: a read that blocks would never end.
+void test_only_regular_files_are_read_and_replaced(void**) {
+    ScratchFolder folder;
+    const auto things = things_that_are_no_files(folder);
+    for (const auto& [path, kind] : things) {
+        expect_error(LB_ERROR_FILE, {path, kind}, [&, &name = path] { read_file(name, 1 << 20); });
+        expect_error(LB_ERROR_FILE, {path, kind}, [&, &name = path] { read_image(name); });
+        expect_error(LB_ERROR_FILE, {path, kind}, [&, &name = path] { read_merl(name); });
+        expect_error(LB_ERROR_FILE, {path, kind}, [&, &name = path] { write_file(name, Bytes(3)); });
+    }
+    assert_int_equal(folder.entries(), 4);
 }
 
 void test_write_failures_leave_nothing(void**) {
     ScratchFolder folder;
     const std::string nowhere = folder.file("missing/file");
     expect_error(LB_ERROR_FILE, {nowhere, "No such file"}, [&] { write_file(nowhere, Bytes(3)); });
-    const std::string inner = folder.file("folder");
-    std::filesystem::create_directory(inner);
-    expect_error(LB_ERROR_FILE, {inner, "folder or a device"}, [&] { write_file(inner, Bytes(3)); });
-    expect_error(LB_ERROR_FILE, {"/dev/null", "device"}, [&] { write_file("/dev/null", Bytes(3)); });
     // The temporary file can be made and written, but this name cannot be given to it.
     const std::string too_long = folder.file(std::string(300, 'x'));
     expect_error(LB_ERROR_FILE, {"name too long"}, [&] { write_file(too_long, Bytes(3)); });
-    assert_int_equal(folder.entries(), 1);
+    assert_int_equal(folder.entries(), 0);
+}
+
+mode_t mode_of(const std::string& path) {
+    struct stat status;
+    assert_int_equal(stat(path.c_str(), &status), 0);
+    return status.st_mode & 07777;
+}
+
+void test_links_and_modes_stay(void**) {
+    namespace fs = std::filesystem;
+    ScratchFolder folder;
+    fs::create_directory(folder.file("inner"));
+    const std::string target = folder.file("inner/target");
+    write_file(target, Bytes(5, 1));
+    assert_int_equal(chmod(target.c_str(), 0604), 0);
+    fs::create_symlink("inner/target", folder.file("relative"));
+    fs::create_symlink(folder.file("relative"), folder.file("chain"));
+    for (const std::string name : {"relative", "chain"}) {
+        write_file(folder.file(name), Bytes(name.begin(), name.end()));
+        assert_true(fs::is_symlink(folder.file(name)));
+        assert_true(read_file(target, 100) == Bytes(name.begin(), name.end()));
+        assert_int_equal(mode_of(target), 0604);
+    }
+    // A link to what does not exist yet makes it; one to itself leads nowhere.
+    fs::create_symlink("inner/new", folder.file("dangling"));
+    write_file(folder.file("dangling"), Bytes(3, 7));
+    assert_true(read_file(folder.file("inner/new"), 100) == Bytes(3, 7) && fs::is_symlink(folder.file("dangling")));
+    fs::create_symlink("loop", folder.file("loop"));
+    expect_error(LB_ERROR_FILE, {folder.file("loop"), "symbolic links"}, [&] { write_file(folder.file("loop"), Bytes(3)); });
+    assert_int_equal(folder.entries(), 5);
 }
 
 void test_full_disk_leaves_the_old_file(void**) {
@@ -114,9 +174,7 @@ void test_permissions_follow_the_umask(void**) {
     const mode_t before = umask(027);
     write_file(folder.file("file"), Bytes(3));
     umask(before);
-    struct stat status;
-    assert_int_equal(stat(folder.file("file").c_str(), &status), 0);
-    assert_int_equal(status.st_mode & 0777, 0640);
+    assert_int_equal(mode_of(folder.file("file")), 0640);
 }
 
 // ---- MERL ---------------------------------------------------------------------------------------
@@ -253,6 +311,22 @@ void test_read_image(void**) {
     expect_error(LB_ERROR_FILE, {"No such file"}, [&] { read_image(folder.file("missing.exr")); });
 }
 
+void test_named_layers(void**) {
+    ScratchFolder folder;
+    write_exr(folder.file("a.exr"), 1, 1, {{"glow.R", {1}}, {"glow.G", {2}}, {"glow.B", {3}}, {"in.ner.Y", {4}}, {"Z", {5}}});
+    assert_true(read_image(folder.file("a.exr#glow")).rgb == std::vector<float>({1, 2, 3}));
+    assert_true(read_image(folder.file("a.exr#in.ner")).rgb == std::vector<float>({4, 4, 4}));
+    expect_error(LB_ERROR_FORMAT, {"\"shadow\"", "glow, in.ner"}, [&] { read_image(folder.file("a.exr#shadow")); });
+    expect_error(LB_ERROR_FORMAT, {"no colour", "glow, in.ner"}, [&] { read_image(folder.file("a.exr")); });
+    expect_error(LB_ERROR_FILE, {"b.exr", "No such file"}, [&] { read_image(folder.file("b.exr#glow")); });
+    // A file that has the whole name comes first.
+    write_exr(folder.file("a.exr#glow"), 1, 1, {{"Y", {9}}});
+    assert_true(read_image(folder.file("a.exr#glow")).rgb == std::vector<float>({9, 9, 9}));
+    const std::string hdr = "#?RADIANCE\n\n-Y 1 +X 1\n\x80\x80\x80\x81";
+    write_file(folder.file("c.hdr"), Bytes(hdr.begin(), hdr.end()));
+    expect_error(LB_ERROR_FORMAT, {"no layers", "glow"}, [&] { read_image(folder.file("c.hdr#glow")); });
+}
+
 // ---- Writers ------------------------------------------------------------------------------------
 
 void test_write_exr(void**) {
@@ -262,13 +336,17 @@ void test_write_exr(void**) {
     for (size_t c = 0; c < channels.size(); ++c)
         for (uint32_t i = 0; i < width * height; ++i) channels[c].values.push_back(float(i) * 1.7f + float(c) * 1e-3f);
     channels[0].values[5] = INFINITY;
-    write_exr(folder.file("a.exr"), width, height, channels);
+    write_exr(folder.file("a.exr"), width, height, channels, {{"lightband.seed", 7.0}, {"lightband.sampler", "cut"}});
     assert_int_equal(folder.entries(), 1);
 
     Imf::InputFile file(folder.file("a.exr").c_str());
     const Imath::Box2i window = file.header().dataWindow();
     assert_true(window == Imath::Box2i({0, 0}, {width - 1, height - 1}));
     assert_int_equal(file.header().compression(), Imf::ZIP_COMPRESSION);
+    assert_true(Imf::hasChromaticities(file.header()) && Imf::chromaticities(file.header()) == Imf::Chromaticities());
+    assert_float_equal(file.header().pixelAspectRatio(), 1, 0);
+    assert_float_equal(file.header().typedAttribute<Imf::DoubleAttribute>("lightband.seed").value(), 7, 0);
+    assert_string_equal(file.header().typedAttribute<Imf::StringAttribute>("lightband.sampler").value().c_str(), "cut");
     for (const NamedChannel& channel : channels) {
         const Imf::Channel* found = file.header().channels().findChannel(channel.name);
         assert_non_null(found);
@@ -331,6 +409,42 @@ void test_write_png_bad_arguments(void**) {
     assert_int_equal(folder.entries(), 0);
 }
 
+// ---- Eight bits -------------------------------------------------------------------------------------
+
+// Every power of two and steps between them, over the range of float: rising, 0 at 0, below 1 for all that is finite.
+void test_filmic_curve(void**) {
+    assert_float_equal(filmic(0), 0, 0);
+    double before = 0;
+    for (double radiance = 1e-6; radiance < 1e6; radiance *= 1.01) {
+        const double shown = filmic(radiance);
+        assert_true(shown > before && shown < 1);
+        before = shown;
+    }
+    for (const double radiance : {1e15, double(FLT_MAX), DBL_MAX}) assert_true(filmic(radiance) >= before && filmic(radiance) < 1);
+    assert_float_equal(filmic(0.18), 0.18, 1e-12);
+    // Hable's curve at the exposure that keeps mid-grey, x = 3.9454 times radiance, over its limit 14/15, by hand.
+    const double x = 3.9453725;
+    const double expected = ((x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.2 / 3) * 15 / 14;
+    assert_float_equal(filmic(1), expected, 1e-6);
+}
+
+void test_eight_bits(void**) {
+    // Linear 0.21404 is the code value 0.5; 2^-1 of 0.42808 as well. Half covered, a colour holds half of the light.
+    const float rgba[] = {0, 0.21404114f, 1, 1, 0.42808228f, 3, -1, 0, 0.10702057f, 0.5f, 0, 0.5f};
+    const Bytes plain = to_srgb(rgba, 3, {});
+    assert_true(plain == Bytes({0, 128, 255, 255, 175, 255, 0, 0, 128, 255, 0, 128}));
+    Display half;
+    half.exposure = -1;
+    assert_int_equal(to_srgb(rgba, 3, half)[4], 128);
+    Display opaque;
+    opaque.opaque = true;
+    assert_true(to_srgb(rgba, 3, opaque) == Bytes({0, 128, 255, 255, 175, 255, 0, 255, 92, 188, 0, 255}));
+    Display film;
+    film.tone_curve = ToneCurve::filmic;
+    const Bytes shown = to_srgb(rgba, 3, film);
+    assert_true(shown[2] < shown[5] && shown[5] < 255);  // of radiance 1 and 3, no longer alike
+}
+
 }  // namespace
 
 int main() {
@@ -339,7 +453,9 @@ int main() {
         cmocka_unit_test(test_descriptors_are_closed),
         cmocka_unit_test(test_read_limits),
         cmocka_unit_test(test_read_failures),
+        cmocka_unit_test(test_only_regular_files_are_read_and_replaced),
         cmocka_unit_test(test_write_failures_leave_nothing),
+        cmocka_unit_test(test_links_and_modes_stay),
         cmocka_unit_test(test_full_disk_leaves_the_old_file),
         cmocka_unit_test(test_permissions_follow_the_umask),
         cmocka_unit_test(test_merl_values),
@@ -349,10 +465,13 @@ int main() {
         cmocka_unit_test(test_merl_cells),
         cmocka_unit_test(test_merl_writing_bad_tables),
         cmocka_unit_test(test_read_image),
+        cmocka_unit_test(test_named_layers),
         cmocka_unit_test(test_write_exr),
         cmocka_unit_test(test_write_exr_bad_arguments),
         cmocka_unit_test(test_write_png),
         cmocka_unit_test(test_write_png_bad_arguments),
+        cmocka_unit_test(test_filmic_curve),
+        cmocka_unit_test(test_eight_bits),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -14,7 +14,7 @@ struct Disc {
 };
 
 RgbImage sky(uint32_t height, double radiance, const std::vector<Disc>& discs) {
-    RgbImage map{2 * height, height, {}, false};
+    RgbImage map{2 * height, height, {}, {}};
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < 2 * height; ++x) {
             const Vec3 d = direction_of(Vec2((x + 0.5) / (2 * height), (y + 0.5) / height));

@@ -10,7 +10,7 @@ using namespace testing;
 
 RgbImage noisy_map(uint32_t width, uint32_t height, uint64_t seed) {
     Random random(seed);
-    RgbImage map{width, height, {}, false};
+    RgbImage map{width, height, {}, {}};
     for (uint32_t i = 0; i < 3 * width * height; ++i) map.rgb.push_back(float(random.log_uniform(0.01, 100)));
     return map;
 }
@@ -111,7 +111,7 @@ void a_fine_cut_is_the_integral(void**) {
 }
 
 void one_lamp_is_one_place(void**) {
-    RgbImage map{128, 64, std::vector<float>(3 * 128 * 64, 0), false};
+    RgbImage map{128, 64, std::vector<float>(3 * 128 * 64, 0), {}};
     const uint32_t x = 31, y = 20;
     for (int c = 0; c < 3; ++c) map.rgb[3 * (y * 128 + x) + c] = 1e6f;
     const MapSampler sampler(map);
@@ -137,7 +137,7 @@ void one_lamp_is_one_place(void**) {
 }
 
 void a_black_map_has_no_light(void**) {
-    const RgbImage map{8, 4, std::vector<float>(3 * 8 * 4, 0), false};
+    const RgbImage map{8, 4, std::vector<float>(3 * 8 * 4, 0), {}};
     const LightTree tree = light_tree(map, MapSampler(map), Lookup::linear);
     assert_int_equal(tree.parts.size(), size_t(LightTree::trunk_parts) * LightTree::heap);
     for (const LightPart& part : tree.parts)

@@ -414,7 +414,7 @@ RgbImage lamps() {
 void radiance_is_counted_in_a_power_of_two(void**) {
     const std::pair<float, double> units[] = {{1.0f, 1}, {3.0f, 2}, {0.7f, 0.5}, {1e15f, 0x1p49}, {0x1.8p-140f, 0x1p-140}, {0.0f, 1}};
     for (const auto& [radiance, unit] : units) {
-        RgbImage map{8, 4, std::vector<float>(8 * 4 * 3, radiance), false};
+        RgbImage map{8, 4, std::vector<float>(8 * 4 * 3, radiance), {}};
         // The mean of equal numbers rounds to either side of them.
         if (radiance > 0) map.rgb[0] *= 1.0001f;
         check_close("unit", MapSampler(map).unit(), unit, 0);
@@ -443,13 +443,13 @@ void the_dimmest_view_is_that_of_the_density(void**) {
     const std::pair<uint32_t, uint32_t> sizes[] = {{1, 1}, {2, 1}, {6, 3}, {5, 5}, {64, 32}};
     for (const auto& [width, height] : sizes) {
         Random random(width);
-        RgbImage map{width, height, {}, false};
+        RgbImage map{width, height, {}, {}};
         for (size_t i = 0; i < size_t(width) * height * 3; ++i) map.rgb.push_back(float(random.log_uniform(1e-6, 1)));
         const MapSampler sampler(map);
         check_close("dimmest octant", sampler.dimmest_view() / least_of_cells(map, sampler, 4, 2), 1, 1e-9);
     }
     // Black ground, an even sky that ends a row above it, and a lamp at the zenith, a quarter of it in each octant that is lit.
-    RgbImage zenith{64, 32, std::vector<float>(64 * 32 * 3), false};
+    RgbImage zenith{64, 32, std::vector<float>(64 * 32 * 3), {}};
     for (size_t i = 0; i < 64 * 15 * 3; ++i) zenith.rgb[i] = i < 64 * 3 ? 1e8f : 1.0f;
     const MapSampler sampler(zenith);
     const double view = sampler.dimmest_view();
