@@ -192,9 +192,19 @@ std::string to_list(const Given& names) {
     return list;
 }
 
-void save(const Frame& self, const std::filesystem::path& path, const Given& names, float exposure) {
+uint32_t to_choice(const Given& given, const char* first, const char* second) {
+    const std::string value = to_text(given);
+    if (value != first && value != second) {
+        given.refuse_value("is '" + value + "'; it must be '" + first + "' or '" + second + "'");
+    }
+    return value == first ? 0 : 1;
+}
+
+void save(const Frame& self, const std::filesystem::path& path, const Given& names, float exposure, const Given& tone_curve,
+          const Given& alpha) {
     const std::string list = to_list(names);
-    in_library([&] { self.handle.save(path.string(), list, exposure); });
+    const uint32_t curve = to_choice(tone_curve, "none", "filmic"), opaque = to_choice(alpha, "coverage", "opaque");
+    in_library([&] { self.handle.save(path.string(), list, exposure, curve, opaque); });
 }
 
 template <size_t index>
@@ -222,11 +232,15 @@ void bind_settings(const FrameClass& type) {
 void bind_results(const FrameClass& type) {
     define_property(type, "stats", &stats, "Counts and times of the last frame, a FrameStats.");
     define_property(type, "plan", &plan, "The passes of the last frame as text, each with its reason and cost.");
-    define(type, "save(self, path, fields=None, exposure=0.0)", &save,
-           R"(Writes the frame to a file, which is complete or not there.
+    define(type, "save(self, path, fields=None, exposure=0.0, tone_curve='none', alpha='coverage')", &save,
+           R"(Writes the frame to a file, which is complete or, on any failure, what it was before.
 
-path: ends in ".exr" (float channels, any fields) or ".png" (color alone, as sRGB times 2**exposure).
-fields: names, as a sequence or separated by commas; None: color alone.)");
+path: ends in ".exr" (float channels, any fields; settings and statistics as attributes) or ".png" (color alone, as sRGB).
+fields: names, as a sequence or separated by commas; None: color alone.
+The others are for ".png" alone:
+exposure: radiance is multiplied by 2**exposure.
+tone_curve: "none" shows what is above 1 as 1; "filmic" (Hable 2010) lets it fade towards 1 and leaves mid-grey where it is.
+alpha: "coverage" makes a cut-out, in which the background, drawn or not, is transparent; "opaque" shows it.)");
     define(type, "buffer(self, name)", &buffer,
            "A field of the last frame as an array; lightband.buffer_names() lists the names.");
     define(type, "pyramid(self, name)", &pyramid, R"(A pyramid level by level: a list of views of one array.

@@ -75,8 +75,12 @@ int main(int argc, char** argv) {
            100 * stats.error, stats.rounds, stats.milliseconds, (unsigned long long)stats.shaded_pixels,
            (unsigned long long)stats.covered_pixels, mean_sample_count(frame));
 
-    check(lb_frame_save(frame, "knot.exr", "color,depth,bandwidth_image,sample_count", 0.0f), "knot.exr");
-    check(lb_frame_save(frame, "knot.png", NULL, 0.0f), "knot.png");
+    lb_save_desc saving = LB_SAVE_DESC_INIT;
+    saving.names = "color,depth,bandwidth_image,sample_count";
+    check(lb_frame_save(frame, "knot.exr", &saving), "knot.exr");
+    saving.names = NULL;
+    saving.tone_curve = LB_TONE_FILMIC;
+    check(lb_frame_save(frame, "knot.png", &saving), "knot.png");
 
     check(lb_frame_release(frame), "release frame");
     check(lb_scene_release(scene), "release scene");

@@ -70,9 +70,9 @@ def main() -> None:
     reference = context.frame(*size, samples=2048, coarsest_level=0, sampler="combined", seed=1, background="environment")
     reference.render(scene, progress=show_progress("reference"))
 
-    frame.save(arguments.out / "demo.png", exposure=EXPOSURE)
+    frame.save(arguments.out / "demo.png", exposure=EXPOSURE, alpha="opaque")
     frame.save(arguments.out / "demo.exr", fields=FIELDS)
-    reference.save(arguments.out / "demo_reference.png", exposure=EXPOSURE)
+    reference.save(arguments.out / "demo_reference.png", exposure=EXPOSURE, alpha="opaque")
     pictures.draw_fields(frame, arguments.out / "demo_fields.png")
 
     stats = frame.stats

@@ -184,9 +184,19 @@ LB_API lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]);
 /* Distant light from a latitude-longitude map: OpenEXR (.exr, every pixel type and compression that OpenEXR
  * reads) or Radiance (.hdr). +Y is up, the image's centre looks along +Z, its left edge along -Z (OpenEXR's
  * convention); texels are sampled at their centres. 1x1 up to 16384x8192, in a file of at most 1 GiB.
- * In a map of lossy compression (DWAA, DWAB), values from -0.01 to 0 are its ringing: they become 0, and the log
- * callback hears how many.
- * LB_ERROR_FILE, LB_ERROR_FORMAT (corrupt; a texel that is negative, not finite or above 1e15: the message says where). */
+ * Headers are followed. OpenEXR: the map is what the display window shows, black where there are no data; a cube map (envmap) is
+ * resampled; chromaticities (and adoptedNeutral) are converted to Rec. 709 with Bradford's adaptation; of several parts the first with
+ * colour is read, deep parts never. Radiance: EXPOSURE, COLORCORR, PRIMARIES, all eight orientations, RGBE and XYZE (at 179 lm/W).
+ * path may name a layer or part of an .exr: "map.exr#Combined" reads the channels Combined.R, Combined.G, Combined.B, or the part
+ * Combined. A file that has the whole name comes first.
+ * What a reader changes in the values, the log callback hears, with its count: negative values that a lossy compression (B44, B44A,
+ * DWAA, DWAB) or chroma at half resolution may have made of light, and negative components of colours outside the gamut of Rec. 709,
+ * become 0.
+ * Reading takes little more memory than the file and three floats a texel. (OpenEXR before 3.3 ends the process where 512 bytes cannot
+ * be had in the middle of a DWAA or DWAB block; running out of memory anywhere else is LB_ERROR_OUT_OF_MEMORY.)
+ * LB_ERROR_FILE (also where path is no regular file: a folder, device, pipe or socket is not waited for), LB_ERROR_FORMAT (corrupt; no
+ * colour or no such layer; chromaticities that span no colours; a texel that is negative, not finite or above 1e15: the message says
+ * where), LB_ERROR_OUT_OF_MEMORY. */
 LB_API lb_result lb_environment_load(lb_context context, const char* path, lb_environment* environment);
 
 /* The same from memory: width * height * 3 float32, rows top-down, tightly packed, RGB interleaved. Copied. */
@@ -426,10 +436,35 @@ LB_API lb_result lb_environment_map(lb_environment environment, const char* name
  *                                        cos(theta_o), then the square of incident directions (docs/conventions.md) */
 LB_API lb_result lb_brdf_map(lb_brdf brdf, const char* name, lb_buffer* buffer, lb_buffer_view* view);
 
-/* Writes a frame's fields. path ends in ".exr": float channels, one group per field, named "R", "G", "B", "A" for
- * color and "<field>.<component>" for others; names: comma-separated fields but pyramids, NULL: color alone. path ends in ".png":
- * color alone, sRGB, after multiplication by 2^exposure. Written to a temporary file beside path, then renamed. */
-LB_API lb_result lb_frame_save(lb_frame frame, const char* path, const char* names, float exposure);
+/* How highlights are shown in eight bits. */
+#define LB_TONE_NONE 0   /* radiance above 1 is shown as 1 */
+#define LB_TONE_FILMIC 1 /* a curve of film that reaches 1 at no finite radiance and leaves mid-grey, 0.18, where it is: Hable 2010,
+                            "Uncharted 2: HDR Lighting", with its white at infinity */
+
+/* The alpha of a PNG. */
+#define LB_ALPHA_COVERAGE 0 /* the coverage, as in the field "color", not multiplied into the colour: a cut-out. Pixels of the background
+                               have alpha 0, and the colour that they show, if any */
+#define LB_ALPHA_OPAQUE 1   /* 1 */
+
+typedef struct lb_save_desc {
+    uint32_t struct_size;
+    uint32_t tone_curve; /* LB_TONE_*; of a PNG */
+    const char* names;   /* comma-separated fields, but not the pyramids; NULL: color alone, as a PNG always */
+    float exposure;      /* of a PNG: radiance is multiplied by 2^exposure, before the tone curve; finite */
+    uint32_t alpha;      /* LB_ALPHA_*; of a PNG */
+} lb_save_desc;
+
+#define LB_SAVE_DESC_INIT { sizeof(lb_save_desc), LB_TONE_NONE, NULL, 0, LB_ALPHA_COVERAGE }
+
+/* Writes a frame's fields. desc NULL: all defaults. path ends in one of two ways:
+ *   ".exr"  float channels, radiance as it is: "R", "G", "B", "A" of color, "Z" of depth, "<field>.<X, Y, Z>" of other fields of three
+ *           components, "<field>.Y" of the rest. The header holds the chromaticities of Rec. 709, pixel aspect ratio 1, the settings
+ *           of the render as "lightband.<setting>" and its statistics as "lightband.stats.<field of lb_frame_stats>"
+ *   ".png"  color alone, as sRGB
+ * Written to a temporary file beside path, then renamed: on any failure, what path was before it still is. A file that is replaced
+ * keeps its mode; of a symbolic link, the file that it leads to is replaced.
+ * LB_ERROR_FILE: cannot be written, or path is not a regular file; LB_ERROR_OUT_OF_MEMORY; LB_ERROR_INVALID_ARGUMENT. */
+LB_API lb_result lb_frame_save(lb_frame frame, const char* path, const lb_save_desc* desc);
 
 #ifdef __cplusplus
 }

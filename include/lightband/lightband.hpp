@@ -278,9 +278,15 @@ public:
     }
     Buffer map(const std::string& name) const { return map_field(lb_frame_map, get(), name, log()); }
 
-    // names: comma-separated fields for an .exr file; empty: color alone.
-    void save(const std::string& path, const std::string& names = "", float exposure = 0) const {
-        check(lb_frame_save(get(), c_text(path), names.empty() ? nullptr : c_text(names), exposure));
+    // names: comma-separated fields for an .exr file; empty: color alone. The others are for a .png file.
+    void save(const std::string& path, const std::string& names = "", float exposure = 0,
+              uint32_t tone_curve = LB_TONE_NONE, uint32_t alpha = LB_ALPHA_COVERAGE) const {
+        lb_save_desc desc = LB_SAVE_DESC_INIT;
+        desc.names = names.empty() ? nullptr : c_text(names);
+        desc.exposure = exposure;
+        desc.tone_curve = tone_curve;
+        desc.alpha = alpha;
+        check(lb_frame_save(get(), c_text(path), &desc));
     }
 
 private:

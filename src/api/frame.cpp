@@ -116,12 +116,23 @@ const char* lb_frame_buffer_name(uint32_t index) {
     return index < std::size(Frame::field_names) ? Frame::field_names[index].name : nullptr;
 }
 
-lb_result lb_frame_save(lb_frame frame, const char* path, const char* names, float exposure) {
+lb_result lb_frame_save(lb_frame frame, const char* path, const lb_save_desc* desc) {
     return border([&] {
         require(path, "path");
+        lb_save_desc described = LB_SAVE_DESC_INIT;
+        if (desc != nullptr) described = read_struct(desc, "desc");
+        if (described.tone_curve > LB_TONE_FILMIC)
+            throw Error(LB_ERROR_INVALID_ARGUMENT, text("desc: tone_curve is ", described.tone_curve,
+                                                        "; it must be LB_TONE_NONE (0) or LB_TONE_FILMIC (1)"));
+        if (described.alpha > LB_ALPHA_OPAQUE)
+            throw Error(LB_ERROR_INVALID_ARGUMENT, text("desc: alpha is ", described.alpha,
+                                                        "; it must be LB_ALPHA_COVERAGE (0) or LB_ALPHA_OPAQUE (1)"));
+        const io::Display display{described.exposure,
+                                  described.tone_curve == LB_TONE_FILMIC ? io::ToneCurve::filmic : io::ToneCurve::none,
+                                  described.alpha == LB_ALPHA_OPAQUE};
         const auto source = frames().get(frame, "frame");
         const gl::Device::Guard guard(source->device());
-        save(*source, path, names != nullptr ? names : "color", exposure);
+        save(*source, path, described.names != nullptr ? described.names : "color", display);
     });
 }
 

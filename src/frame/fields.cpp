@@ -151,6 +151,8 @@ HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& ma
     return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "log2(pixel)", std::move(levels));
 }
 
+const Settings& Frame::rendered_settings() const { return result().settings; }
+
 HostArray Frame::field(const std::string& name) const {
     const auto is_it = [&](const FieldName& f) { return name == f.name; };
     const auto known = std::find_if(std::begin(field_names), std::end(field_names), is_it);

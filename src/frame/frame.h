@@ -34,6 +34,7 @@ public:
     void render(const Scene& scene, const Progress& progress);
 
     lb_frame_stats stats() const;
+    const Settings& rendered_settings() const;  // those of the last render
     std::string explain() const;
     HostArray field(const std::string& name) const;
 

@@ -4,10 +4,11 @@
 #include <string>
 
 #include "frame/frame.h"
+#include "io/display.h"
 
 namespace lightband {
 
-// path ends in .exr (fields: comma-separated names) or .png (color alone, sRGB after multiplication by 2^exposure).
-void save(const Frame& frame, const std::string& path, const std::string& fields, float exposure);
+// path ends in .exr (fields: comma-separated names) or .png (color alone, as display says).
+void save(const Frame& frame, const std::string& path, const std::string& fields, const io::Display& display);
 
 }  // namespace lightband

@@ -209,7 +209,7 @@ static void nothing_is_told_before_the_first_picture(void** state) {
     assert_refused(lb_frame_info(frame, &stats), LB_ERROR_INVALID_STATE, "render");
     assert_refused(lb_frame_explain(frame, NULL, 0, &needed), LB_ERROR_INVALID_STATE, "render");
     assert_refused(lb_frame_map(frame, "color", &buffer, &view), LB_ERROR_INVALID_STATE, "render");
-    assert_refused(lb_frame_save(frame, "never_written.exr", NULL, 0.0f), LB_ERROR_INVALID_STATE, "render");
+    assert_refused(lb_frame_save(frame, "never_written.exr", NULL), LB_ERROR_INVALID_STATE, "render");
     assert_int_equal(needed, 77);
     assert_null(buffer);
     assert_ok(lb_frame_release(frame));
@@ -439,7 +439,9 @@ static void reference_predicts_nothing(void** state) {
     assert_finite_field(frame, "color");
     for (int i = 0; i < 8; ++i) {
         assert_refused(lb_frame_map(frame, absent[i], &buffer, &view), LB_ERROR_INVALID_STATE, absent[i], "reference");
-        assert_refused(lb_frame_save(frame, "never_written.exr", absent[i], 0.0f), LB_ERROR_INVALID_STATE, absent[i]);
+        lb_save_desc saving = LB_SAVE_DESC_INIT;
+        saving.names = absent[i];
+        assert_refused(lb_frame_save(frame, "never_written.exr", &saving), LB_ERROR_INVALID_STATE, absent[i]);
     }
     assert_null(buffer);
     assert_ok(lb_frame_release(frame));
@@ -458,22 +460,39 @@ static void file_must_be_writable_and_of_a_known_kind(void** state) {
     (void)state;
     const lb_frame frame = world.frame;
     const char* path = "never_written.exr";
-    assert_refused(lb_frame_save(frame, NULL, NULL, 0), LB_ERROR_INVALID_ARGUMENT, "path");
-    assert_refused(lb_frame_save(frame, "", NULL, 0), LB_ERROR_INVALID_ARGUMENT, "path");
-    assert_refused(lb_frame_save(frame, "picture.jpg", NULL, 0), LB_ERROR_INVALID_ARGUMENT, "picture.jpg", ".exr",
-                   ".png");
-    assert_refused(lb_frame_save(frame, "no/such/folder/a.exr", NULL, 0), LB_ERROR_FILE, "no/such/folder");
-    assert_refused(lb_frame_save(frame, "no/such/folder/a.png", NULL, 0), LB_ERROR_FILE, "no/such/folder");
-    assert_refused(lb_frame_save(frame, path, "colour", 0), LB_ERROR_INVALID_ARGUMENT, "colour");
-    assert_refused(lb_frame_save(frame, path, "color,,depth", 0), LB_ERROR_INVALID_ARGUMENT, "field");
-    assert_refused(lb_frame_save(frame, path, "", 0), LB_ERROR_INVALID_ARGUMENT, "names");
-    assert_refused(lb_frame_save(frame, path, "color,color", 0), LB_ERROR_INVALID_ARGUMENT, "twice");
-    assert_refused(lb_frame_save(frame, "never_written.png", "depth", 0), LB_ERROR_INVALID_ARGUMENT, "depth");
+    assert_refused(lb_frame_save(frame, NULL, NULL), LB_ERROR_INVALID_ARGUMENT, "path");
+    assert_refused(lb_frame_save(frame, "", NULL), LB_ERROR_INVALID_ARGUMENT, "path");
+    assert_refused(lb_frame_save(frame, "picture.jpg", NULL), LB_ERROR_INVALID_ARGUMENT, "picture.jpg", ".exr", ".png");
+    assert_refused(lb_frame_save(frame, "no/such/folder/a.exr", NULL), LB_ERROR_FILE, "no/such/folder");
+    assert_refused(lb_frame_save(frame, "no/such/folder/a.png", NULL), LB_ERROR_FILE, "no/such/folder");
+
+    const struct {
+        const char* names;
+        const char* word;
+    } wrong_names[] = {{"colour", "colour"}, {"color,,depth", "field"}, {"", "names"}, {"color,color", "twice"}};
+    lb_save_desc saving = LB_SAVE_DESC_INIT;
+    for (int i = 0; i < 4; ++i) {
+        saving.names = wrong_names[i].names;
+        assert_refused(lb_frame_save(frame, path, &saving), LB_ERROR_INVALID_ARGUMENT, wrong_names[i].word);
+    }
+    saving.names = "depth";
+    assert_refused(lb_frame_save(frame, "never_written.png", &saving), LB_ERROR_INVALID_ARGUMENT, "depth");
+    saving.names = NULL;
+
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 3; ++i) {
-        assert_refused(lb_frame_save(frame, "never_written.png", NULL, wrong[i]), LB_ERROR_INVALID_ARGUMENT,
-                       "exposure");
+        saving.exposure = wrong[i];
+        assert_refused(lb_frame_save(frame, "never_written.png", &saving), LB_ERROR_INVALID_ARGUMENT, "exposure");
     }
+    saving.exposure = 0;
+    saving.tone_curve = 2;
+    assert_refused(lb_frame_save(frame, "never_written.png", &saving), LB_ERROR_INVALID_ARGUMENT, "tone_curve");
+    saving.tone_curve = LB_TONE_FILMIC;
+    saving.alpha = 2;
+    assert_refused(lb_frame_save(frame, "never_written.png", &saving), LB_ERROR_INVALID_ARGUMENT, "alpha");
+    saving.alpha = LB_ALPHA_OPAQUE;
+    saving.struct_size = 8;
+    assert_refused(lb_frame_save(frame, "never_written.png", &saving), LB_ERROR_INVALID_ARGUMENT, "struct_size");
     assert_false(exists(path));
     assert_false(exists("never_written.png"));
 }
@@ -487,7 +506,9 @@ static void every_field_can_be_saved(void** state) {
             strcat(names, lb_frame_buffer_name(i));
         }
     }
-    assert_ok(lb_frame_save(world.frame, "fields.exr", names, 0));
+    lb_save_desc saving = LB_SAVE_DESC_INIT;
+    saving.names = names;
+    assert_ok(lb_frame_save(world.frame, "fields.exr", &saving));
     assert_true(exists("fields.exr"));
     remove("fields.exr");
 }

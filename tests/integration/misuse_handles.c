@@ -76,7 +76,7 @@ CALL(lb_frame_render, (handle, world.scene, NULL, NULL))
 CALL(lb_frame_info, (handle, &out.frame_stats))
 CALL(lb_frame_explain, (handle, NULL, 0, &out.needed))
 CALL(lb_frame_map, (handle, "color", &out.buffer, &out.view))
-CALL(lb_frame_save, (handle, "never_written.exr", NULL, 0.0f))
+CALL(lb_frame_save, (handle, "never_written.exr", NULL))
 CALL(lb_buffer_retain, (handle))
 
 /* Handles that are not the first argument. */

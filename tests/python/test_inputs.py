@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -280,6 +281,8 @@ REFUSED: list[tuple[str, type[Exception], str]] = [
     ("rendered.save('picture.exr', fields=[3])", TypeError, "str"),
     ("rendered.save('picture.png', fields='depth')", lightband.InvalidArgument, "depth"),
     ("rendered.save('picture.png', exposure=float('nan'))", lightband.InvalidArgument, "exposure"),
+    ("rendered.save('picture.png', tone_curve='aces')", lightband.InvalidArgument, "tone_curve.*aces.*none.*filmic"),
+    ("rendered.save('picture.png', alpha='none')", lightband.InvalidArgument, "alpha.*none.*coverage.*opaque"),
     ("lightband.Context(device='abacus')", lightband.InvalidArgument, "abacus"),
     ("lightband.Context(device=2)", TypeError, "device"),
     ("lightband.Context(device='software', log=3)", TypeError, "log"),
@@ -310,6 +313,75 @@ def test_bad_input_is_refused_by_name(
     with pytest.raises(kind, match=message):
         eval(call, names)
     assert not list(tmp_path.iterdir())
+
+
+ACCEPTED = [
+    "scene.camera((0, 0, 2), (0, 0, 0), near_plane=1e-30)",
+    "scene.camera((0, 0, 2), (0, 0, 0), far_plane=1e30)",
+    "scene.camera((0, 0, 2), (0, 0, 0), near_plane=np.float32(1e-30), far_plane=np.float32(1e30))",
+    "context.ggx(1e-4, 1)",
+    "context.ggx(1, 0)",
+    "context.lambert([0, 1, 0.5])",
+    "context.environment(np.full((1, 1, 3), 1e15))",
+    "context.builtin_mesh('sphere', 8)",
+    "context.builtin_mesh('sphere', 2048)",
+    "context.frame(8192, 1)",
+    "context.lambert(1).albedo(0)",
+]
+
+
+@pytest.mark.parametrize("call", ACCEPTED)
+def test_limits_themselves_are_accepted(context: lightband.Context, call: str) -> None:
+    """Those that the interface's header names, as the float that they come as."""
+    eval(call, {**globals(), "context": context, "scene": context.scene()})
+
+
+def test_settings_take_their_least_and_most(frame: lightband.Frame) -> None:
+    for setting in lightband.settings():
+        for value in setting.choices or (setting.minimum, setting.maximum):
+            frame[setting.name] = value
+            assert frame[setting.name] == value
+
+
+@pytest.mark.parametrize("length", [1000, 4050, 4080, 4090, 4095, 4100, 20000])
+@pytest.mark.parametrize("letter", ["d", "ä"])
+def test_a_long_path_leaves_room_for_the_reason(context: lightband.Context, length: int, letter: str) -> None:
+    size = len(letter.encode())
+    path = "/nowhere/" + (letter * 100 + "/") * (length // (100 * size + 1)) + "m.exr"
+    with pytest.raises(lightband.FileError, match="No such file or directory|File name too long") as caught:
+        context.load_environment(path)
+    assert str(caught.value).startswith("/nowhere/" + letter) and "\ufffd" not in str(caught.value)
+
+
+def test_only_regular_files_are_opened(context: lightband.Context, rendered: lightband.Frame, tmp_path: Path) -> None:
+    """Opening a pipe would wait for a writer: a call that returns has not."""
+    pipe = tmp_path / "pipe.exr"
+    os.mkfifo(pipe)
+    folder = tmp_path / "folder.exr"
+    folder.mkdir()
+    for path, kind in ((pipe, "a pipe"), (folder, "a directory"), (Path("/dev/zero"), "a device")):
+        for load in (context.load_environment, context.load_brdf):
+            with pytest.raises(lightband.FileError, match=kind):
+                load(path)
+    for path in (pipe, folder):
+        with pytest.raises(lightband.FileError, match="not a file that can be replaced"):
+            rendered.save(path)
+    # In the cache, as well: the material is computed all the same.
+    with lightband.Context(device="software", cache_path=str(tmp_path)) as other:
+        other.builtin_brdf("rough-gold").close()
+        (cached,) = tmp_path.glob("*.binary")
+        cached.unlink()
+        os.mkfifo(cached)
+        other.builtin_brdf("rough-gold").close()
+
+
+def test_what_a_reader_changes_is_logged(tmp_path: Path) -> None:
+    lines: list[str] = []
+    path = tmp_path / "freeimage.hdr"
+    path.write_bytes(b"#?RADIANCE\nEXPOSURE=0\n\n-Y 1 +X 1\n\x80\x80\x80\x81")
+    with lightband.Context(device="software", log=lines.append, cache_path="") as context:
+        assert context.load_environment(path).radiance.shape == (1, 1, 3)
+    assert [line for line in lines if str(path) in line and "EXPOSURE=0" in line]
 
 
 def test_a_scene_holds_254_instances(context: lightband.Context) -> None:

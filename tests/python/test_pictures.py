@@ -18,6 +18,7 @@ import lightband
 
 pytest.importorskip("matplotlib", reason="Matplotlib is in the extra pictures")
 
+import matplotlib.image
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -164,6 +165,59 @@ def test_srgb_curve_and_its_inverse() -> None:
     assert pictures.srgb_encode(0.21404114) == pytest.approx(0.5, abs=1e-6)
     codes = np.linspace(0, 1, 256)
     np.testing.assert_allclose(pictures.srgb_encode(pictures.srgb_decode(codes)), codes, atol=1e-6)
+
+
+@pytest.fixture(scope="module")
+def with_background(context: lightband.Context, scene: lightband.Scene) -> lightband.Frame:
+    frame = context.frame(40, 24, samples=8, background="environment")
+    frame.render(scene)
+    return frame
+
+
+def png(frame: lightband.Frame, folder: Path, **options: Any) -> Any:
+    frame.save(folder / "frame.png", **options)
+    return matplotlib.image.imread(folder / "frame.png")
+
+
+def test_alpha_of_a_png(rendered: lightband.Frame, with_background: lightband.Frame, tmp_path: Path) -> None:
+    for frame in (rendered, with_background):
+        assert 0 < frame.color[..., 3].sum() < 40 * 24
+        np.testing.assert_array_equal(png(frame, tmp_path)[..., 3], frame.color[..., 3])
+        assert (png(frame, tmp_path, alpha="opaque")[..., 3] == 1).all()
+    # Whatever alpha is, the colours are those that the frame shows.
+    shown = pictures.srgb_encode(with_background.color[..., :3].clip(0, 1))
+    for alpha in ("coverage", "opaque"):
+        np.testing.assert_allclose(png(with_background, tmp_path, alpha=alpha)[..., :3], shown, atol=0.51 / 255)
+
+
+def test_highlights_of_a_png(with_background: lightband.Frame, tmp_path: Path) -> None:
+    """The sky is 0.5 to 1.5 bright; three stops up, all of it is above 1."""
+    clipped = png(with_background, tmp_path, exposure=3, alpha="opaque")[0, :, 0]
+    filmic = png(with_background, tmp_path, exposure=3, tone_curve="filmic", alpha="opaque")
+    assert (clipped == 1).all()
+    sky = filmic[:, 0, 0]
+    assert sky.max() < 1 and len(np.unique(sky)) > 2 and (np.diff(sky) <= 0).all()
+
+
+def test_an_exr_says_how_it_was_made(rendered: lightband.Frame, tmp_path: Path) -> None:
+    rendered.save(tmp_path / "frame.exr", fields=["color", "depth", "normal", "level"])
+    header = (tmp_path / "frame.exr").read_bytes()[:8192]
+    for channel in (b"A", b"B", b"G", b"R", b"Z", b"level.Y", b"normal.X", b"normal.Z"):
+        assert b"\0" + channel + b"\0" in header
+    assert b"chromaticities\0chromaticities\0" in header and b"pixelAspectRatio\0float\0\4\0\0\0\0\0\x80\x3f" in header
+    for setting in lightband.settings():
+        kind = b"string" if setting.choices else b"double"
+        assert b"lightband." + setting.name.encode() + b"\0" + kind + b"\0" in header
+
+    def number(name: bytes) -> float:
+        value = header.split(name + b"\0double\0\x08\0\0\0")[1][:8]
+        return float(np.frombuffer(value, "<f8")[0])
+
+    assert number(b"lightband.samples") == 8
+    assert number(b"lightband.stats.samples") == rendered.stats.samples
+    assert number(b"lightband.stats.error") == rendered.stats.error
+    stats = [name for name in vars(type(rendered.stats)).get("__annotations__", ()) if name not in ("width", "height")]
+    assert stats and all(b"lightband.stats." + name.encode() + b"\0" in header for name in stats)
 
 
 def test_without_matplotlib_the_error_says_what_to_install() -> None:

@@ -370,11 +370,22 @@ class Frame:
     @property
     def plan(self) -> str:
         """The passes of the last frame as text, each with its reason and cost."""
-    def save(self, path: _Path, fields: str | Iterable[str] | None = None, exposure: SupportsFloat = 0.0) -> None:
-        """Writes the frame to a file, which is complete or not there.
+    def save(
+        self,
+        path: _Path,
+        fields: str | Iterable[str] | None = None,
+        exposure: SupportsFloat = 0.0,
+        tone_curve: Literal["none", "filmic"] = "none",
+        alpha: Literal["coverage", "opaque"] = "coverage",
+    ) -> None:
+        """Writes the frame to a file, which is complete or, on any failure, what it was before.
 
-        path: ends in ".exr" (float channels, any fields) or ".png" (color alone, as sRGB times 2**exposure).
+        path: ends in ".exr" (float channels, any fields; settings and statistics as attributes) or ".png" (color alone, as sRGB).
         fields: names, as a sequence or separated by commas; None: color alone.
+        The others are for ".png" alone:
+        exposure: radiance is multiplied by 2**exposure.
+        tone_curve: "none" shows what is above 1 as 1; "filmic" (Hable 2010) lets it fade towards 1 and leaves mid-grey where it is.
+        alpha: "coverage" makes a cut-out, in which the background, drawn or not, is transparent; "opaque" shows it.
         """
     def buffer(self, name: str) -> NDArray[np.generic]:
         """A field of the last frame as an array; lightband.buffer_names() lists the names."""
