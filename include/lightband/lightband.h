@@ -21,8 +21,21 @@
  * Structs    Begin with `struct_size`, set by the *_INIT macro beside each. Zero in a field means the default. A larger
  *            struct of a later version is accepted where its unknown tail is zero (up to 4096 bytes).
  * Threads    Every call may come from any thread. Calls on objects of one context wait for each other;
- *            objects of different contexts are independent. Callbacks run on the calling thread; what they call
- *            of the library fails with LB_ERROR_INVALID_STATE.
+ *            objects of different contexts are independent. Each context has a thread of its own, named
+ *            "lightband", where its OpenGL context stays current: calls hand their work over and wait. The
+ *            caller's OpenGL context, made by whatever window system, is neither needed nor touched. The
+ *            library's threads block all signals. Whatever floating-point environment the caller has (traps,
+ *            rounding, denormals flushed to zero), the library computes with the default one; a callback has
+ *            the caller's. pthread_cancel takes effect after the call, or in a callback.
+ * Callbacks  Run on the calling thread. Every call from a callback, a release and a retain included, fails with
+ *            LB_ERROR_INVALID_STATE; functions that return no lb_result work. A callback may end its thread
+ *            (pthread_exit): the call is then given up, and the context remains usable. It must not leave the
+ *            call by longjmp.
+ * Processes  Contexts do not outlive a fork: in a child of a process that had made one, every call fails at once
+ *            with LB_ERROR_INVALID_STATE, and releases do nothing. Make contexts after fork, or start processes
+ *            anew by exec. A process may end by exit while threads are inside the library: their calls fail with
+ *            LB_ERROR_INVALID_STATE, as do all calls after the exit handlers of the OpenGL driver began to run,
+ *            and releases do nothing. Exit handlers registered after the first context was made run before that.
  * Units      Metres, radians, cycles. Angular bandwidth in cycles per radian, spatial in cycles per metre,
  *            image bandwidth in cycles per pixel. Radiance is linear with Rec. 709 primaries; luminance
  *            weights 0.2126, 0.7152, 0.0722. World space is right-handed.
@@ -61,7 +74,8 @@ typedef int32_t lb_result;
 #define LB_OK 0
 #define LB_ERROR_INVALID_ARGUMENT 1 /* an argument is NULL, not finite, out of range or of an unknown name */
 #define LB_ERROR_INVALID_HANDLE 2   /* the handle is NULL, was released, or names an object of another kind */
-#define LB_ERROR_INVALID_STATE 3    /* the call came too early: no camera, no environment, no frame rendered */
+#define LB_ERROR_INVALID_STATE 3    /* the call came too early (no camera, no environment, no frame rendered), from a callback,
+                                       in a fork or at the end of the process */
 #define LB_ERROR_FILE 4             /* a file cannot be opened, read, written or renamed */
 #define LB_ERROR_FORMAT 5           /* a file is not what it says: truncated, corrupt, out of limits */
 #define LB_ERROR_OUT_OF_MEMORY 6    /* host memory; a driver may end the process where its own runs out, as Mesa does */
@@ -124,9 +138,10 @@ typedef struct lb_context_desc {
 #define LB_CONTEXT_DESC_INIT { sizeof(lb_context_desc), LB_DEVICE_HARDWARE, NULL, NULL, NULL }
 
 /* Makes an OpenGL 4.5 core context of the library's own, without a window: EGL device platform first, then
- * Mesa's surfaceless platform. desc NULL: all defaults. The caller's current OpenGL context, if any, is
- * current again when a call returns.
- * LB_ERROR_DEVICE: no attempt succeeded; the message lists each with its reason. */
+ * Mesa's surfaceless platform. desc NULL: all defaults. EGL displays are shared by the whole process: the library
+ * never terminates one, and a caller that does leaves living contexts usable.
+ * LB_ERROR_DEVICE: no attempt succeeded; the message lists each with its reason.
+ * LB_ERROR_OUT_OF_MEMORY: the context's thread cannot be started. */
 LB_API lb_result lb_context_create(const lb_context_desc* desc, lb_context* context);
 
 /* Renderer and version as the driver names them. Valid while the context lives. */

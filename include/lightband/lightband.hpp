@@ -20,11 +20,16 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#if defined(__GLIBCXX__)
+#include <cxxabi.h>
+#endif
 
 #include "lightband/lightband.h"
 
@@ -47,11 +52,35 @@ private:
     lb_result code_;
 };
 
+// Objects that a callback was the last to hold: the library releases nothing while one runs. They are released when the call that the
+// callback interrupted is over, or with the thread.
+class PostponedReleases {
+public:
+    using Release = std::function<lb_result()>;
+
+    static PostponedReleases& of_this_thread() {
+        thread_local PostponedReleases releases;
+        return releases;
+    }
+    ~PostponedReleases() { run(); }
+
+    void add(Release release) { waiting_.push_back(std::move(release)); }
+    void run() {
+        while (!waiting_.empty() && waiting_.back()() != LB_ERROR_INVALID_STATE) {
+            waiting_.pop_back();
+        }
+    }
+
+private:
+    std::vector<Release> waiting_;
+};
+
 // Turns the result of a C call into an exception.
 inline void check(lb_result result) {
     if (result != LB_OK) {
         throw Exception(result, lb_error_message());
     }
+    PostponedReleases::of_this_thread().run();
 }
 
 // The text as C reads it: a zero byte within would hide the rest.
@@ -64,6 +93,14 @@ inline const char* c_text(const std::string& text) {
 }
 
 // ---- Callbacks --------------------------------------------------------------------------------------------------
+
+// A callback that ends its thread (pthread_exit, pthread_cancel) unwinds the stack. The C library aborts where a handler does not pass
+// that on.
+#if defined(__GLIBCXX__)
+using ForcedUnwind = abi::__forced_unwind;
+#else
+class ForcedUnwind {};
+#endif
 
 // Receives messages of driver and library. What it throws is dropped: the C code between cannot pass it on.
 using Log = std::function<void(const char* message)>;
@@ -93,8 +130,11 @@ public:
         return *this;
     }
     ~Handle() {
-        if (raw_ != nullptr) {
-            release(raw_);
+        if (raw_ != nullptr && release(raw_) == LB_ERROR_INVALID_STATE) {
+            try {
+                PostponedReleases::of_this_thread().add([raw = raw_, log = log_] { return release(raw); });
+            } catch (const std::bad_alloc&) {  // not even that can be remembered: the object stays
+            }
         }
     }
 
@@ -295,10 +335,12 @@ private:
         const Progress& progress;
         std::exception_ptr thrown;
 
-        static int32_t forward(void* user, double fraction) noexcept {
+        static int32_t forward(void* user, double fraction) {
             ProgressCall& call = *static_cast<ProgressCall*>(user);
             try {
                 return call.progress(fraction) ? 1 : 0;
+            } catch (ForcedUnwind&) {
+                throw;
             } catch (...) {
                 call.thrown = std::current_exception();
                 return 1;
@@ -370,9 +412,11 @@ private:
         return Handle(raw, std::move(log));
     }
 
-    static void forward_log(void* user, const char* message) noexcept {
+    static void forward_log(void* user, const char* message) {
         try {
             (*static_cast<const Log*>(user))(message);
+        } catch (ForcedUnwind&) {
+            throw;
         } catch (...) {
             // See Log.
         }

@@ -2,6 +2,8 @@
 
 #include <new>
 
+#include "base/process.h"
+
 namespace lightband::api {
 namespace {
 
@@ -59,6 +61,16 @@ lb_result fail(lb_result code, const char* message) noexcept {
     std::memcpy(last_message + head, gap, gap_length);
     std::memcpy(last_message + head + gap_length, message + tail, length - tail + 1);
     return code;
+}
+
+const char* refusal() {
+    if (HostThread::in_callback())
+        return "a progress or log callback must not call the library: do the work after the call that it interrupts has returned";
+    if (process_was_forked())
+        return "this process was forked from one that had made a context, and contexts do not outlive a fork: make them after fork, or "
+               "start processes anew (exec; in Python: multiprocessing's start methods \"spawn\" and \"forkserver\")";
+    if (process_ends()) return "the process ends: exit was called, and the driver's own exit handlers run";
+    return nullptr;
 }
 
 lb_result translate_exception() noexcept {

@@ -7,6 +7,8 @@
 
 #include "api/handles.h"
 #include "assets/scene.h"
+#include "base/forced_unwind.h"
+#include "base/host_thread.h"
 #include "frame/frame.h"
 #include "frame/host_array.h"
 #include "gl/device.h"
@@ -29,12 +31,20 @@ HandleTable<const HostArray>& arrays();
 lb_result fail(lb_result code, const char* message) noexcept;
 lb_result translate_exception() noexcept;  // of the exception that is being handled
 
-// Runs the body of a call; nothing leaves it but a result.
+// Why no call is taken on this thread now (LB_ERROR_INVALID_STATE): a callback runs, or the process was forked or ends. NULL: calls are
+// taken.
+const char* refusal();
+
+// Runs the body of a call; nothing leaves it but a result, or the end of a thread that a callback ends.
 template <class Body>
-lb_result border(Body body) noexcept {
+lb_result border(Body body) {
+    if (const char* reason = refusal()) return fail(LB_ERROR_INVALID_STATE, reason);
+    const HostThread inside;
     try {
         body();
         return LB_OK;
+    } catch (ForcedUnwind&) {
+        throw;
     } catch (...) {
         return translate_exception();
     }
@@ -44,16 +54,13 @@ inline void require(const void* argument, const char* name) {
     if (argument == nullptr) throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, " is NULL"));
 }
 
-// Objects hold OpenGL's: whoever lets go of one last, a call that another thread released it from included, it ends under its device's
-// guard. Of a device that cannot be made current nothing is left to be freed.
+// Objects hold OpenGL's: whoever lets go of one last, it ends on the thread of its context. The device outlives it, so that its thread
+// is never left to end itself.
 template <class Object, class... Arguments>
 std::shared_ptr<Object> make(Arguments&&... arguments) {
     return {new Object(std::forward<Arguments>(arguments)...), [](Object* object) {
-                try {
-                    const gl::Device::Guard guard(object->device());
-                    delete object;
-                } catch (const Error&) {
-                }
+                const gl::DevicePtr device = object->device();
+                device->destroy([&] { delete object; });
             }};
 }
 

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "api/border.h"
+#include "base/process.h"
 
 using namespace lightband;
 using namespace lightband::api;
@@ -19,9 +20,11 @@ lb_result retain(HandleTable<Object>& table, const void* handle) {
     return border([&] { table.retain(handle); });
 }
 
+// Where the process was forked or ends, nothing is released, and no destructor of the host has to hear of it.
 template <class Object>
 lb_result release(HandleTable<Object>& table, const void* handle) {
     if (handle == nullptr) return LB_OK;
+    if (!HostThread::in_callback() && refusal() != nullptr) return LB_OK;
     return border([&] { table.release(handle); });
 }
 
@@ -39,7 +42,9 @@ lb_result lb_context_create(const lb_context_desc* desc, lb_context* context) {
                                                         "LB_DEVICE_SOFTWARE (1) or LB_DEVICE_ANY (2)"));
         const auto made = std::make_shared<Context>();
         made->cache_path = described.cache_path != nullptr ? described.cache_path : default_cache_path();
+        claim_process();
         made->device = std::make_shared<gl::Device>(described.device, described.log, described.log_user);
+        made->device->log(text("rendering on ", made->device->name()));
         give(contexts(), made, context);
     });
 }

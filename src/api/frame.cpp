@@ -22,7 +22,7 @@ lb_result lb_frame_set_number(lb_frame frame, const char* name, double value) {
     return border([&] {
         require(name, "name");
         const auto target = frames().get(frame, "frame");
-        const gl::Device::Guard guard(target->device());
+        const auto locked = target->device()->lock();
         target->settings.set_number(name, value);
     });
 }
@@ -32,7 +32,7 @@ lb_result lb_frame_set_choice(lb_frame frame, const char* name, const char* valu
         require(name, "name");
         require(value, "value");
         const auto target = frames().get(frame, "frame");
-        const gl::Device::Guard guard(target->device());
+        const auto locked = target->device()->lock();
         target->settings.set_choice(name, value);
     });
 }
@@ -42,7 +42,7 @@ lb_result lb_frame_get_number(lb_frame frame, const char* name, double* value) {
         require(name, "name");
         require(value, "value");
         const auto source = frames().get(frame, "frame");
-        const gl::Device::Guard guard(source->device());
+        const auto locked = source->device()->lock();
         *value = source->settings.number(name);
     });
 }
@@ -52,7 +52,7 @@ lb_result lb_frame_get_choice(lb_frame frame, const char* name, const char** val
         require(name, "name");
         require(value, "value");
         const auto source = frames().get(frame, "frame");
-        const gl::Device::Guard guard(source->device());
+        const auto locked = source->device()->lock();
         *value = source->settings.choice(name);
     });
 }
@@ -71,17 +71,21 @@ lb_result lb_frame_render(lb_frame frame, lb_scene scene, lb_progress_callback p
     return border([&] {
         const auto target = frames().get(frame, "frame");
         const auto source = scenes().get(scene, "scene");
-        const gl::Device::Guard guard(target->device());
-        Progress report;
-        if (progress != nullptr) report = [=](double fraction) { return progress(user, fraction) != 0; };
-        target->render(*source, report);
+        gl::Device& device = *target->device();
+        const auto report = [&](double fraction) {
+            device.checkpoint();
+            int32_t cancelled = 0;
+            if (progress != nullptr) device.call_back([&] { cancelled = progress(user, fraction); });
+            return cancelled != 0;
+        };
+        device.run([&] { target->render(*source, report); });
     });
 }
 
 lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats) {
     return border([&] {
         const auto source = frames().get(frame, "frame");
-        const gl::Device::Guard guard(source->device());
+        const auto locked = source->device()->lock();
         write_struct(stats, source->stats(), "stats");
     });
 }
@@ -89,7 +93,7 @@ lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats) {
 lb_result lb_frame_explain(lb_frame frame, char* text, size_t size, size_t* needed) {
     return border([&] {
         const auto source = frames().get(frame, "frame");
-        const gl::Device::Guard guard(source->device());
+        const auto locked = source->device()->lock();
         const std::string plan = source->explain();
         if (size > 0) {
             require(text, "text");
@@ -105,8 +109,7 @@ lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_b
     return border([&] {
         require(name, "name");
         const auto source = frames().get(frame, "frame");
-        const gl::Device::Guard guard(source->device());
-        give_array(source->field(name), buffer, view);
+        give_array(source->device()->run([&] { return source->field(name); }), buffer, view);
     });
 }
 
@@ -131,8 +134,7 @@ lb_result lb_frame_save(lb_frame frame, const char* path, const lb_save_desc* de
                                   described.tone_curve == LB_TONE_FILMIC ? io::ToneCurve::filmic : io::ToneCurve::none,
                                   described.alpha == LB_ALPHA_OPAQUE};
         const auto source = frames().get(frame, "frame");
-        const gl::Device::Guard guard(source->device());
-        save(*source, path, described.names != nullptr ? described.names : "color", display);
+        source->device()->run([&] { save(*source, path, described.names != nullptr ? described.names : "color", display); });
     });
 }
 

@@ -21,8 +21,7 @@ lb_result create_brdf(lb_context context, lb_brdf* brdf, Read read, const char* 
         require(brdf, "brdf");
         const auto owner = contexts().get(context, "context");
         Brdf reflectance = read(*owner);
-        const gl::Device::Guard guard(owner->device);
-        std::shared_ptr<const Material> material = make<const Material>(owner->device, std::move(reflectance));
+        auto material = owner->device->run([&] { return make<const Material>(owner->device, std::move(reflectance)); });
         material->check_albedo(source, wrong);
         give<lb_brdf>(materials(), std::move(material), brdf);
     });
@@ -58,8 +57,8 @@ lb_result create_environment(lb_context context, lb_environment* environment, Re
         require(environment, "environment");
         const auto owner = contexts().get(context, "context");
         RgbImage map = read(*owner);
-        const gl::Device::Guard guard(owner->device);
-        give<lb_environment>(lights(), make<const Light>(owner->device, std::move(map)), environment);
+        auto light = owner->device->run([&] { return make<const Light>(owner->device, std::move(map)); });
+        give<lb_environment>(lights(), std::move(light), environment);
     });
 }
 
@@ -69,8 +68,7 @@ lb_result create_mesh(lb_context context, lb_mesh* mesh, Read read) {
         require(mesh, "mesh");
         const auto owner = contexts().get(context, "context");
         const Triangles triangles = read();
-        const gl::Device::Guard guard(owner->device);
-        give<lb_mesh>(meshes(), make<const Mesh>(owner->device, triangles), mesh);
+        give<lb_mesh>(meshes(), owner->device->run([&] { return make<const Mesh>(owner->device, triangles); }), mesh);
     });
 }
 
@@ -218,8 +216,7 @@ lb_result lb_environment_map(lb_environment environment, const char* name, lb_bu
     return border([&] {
         require(name, "name");
         const auto light = lights().get(environment, "environment");
-        const gl::Device::Guard guard(light->device());
-        give_array(environment_field(*light, name), buffer, view);
+        give_array(light->device()->run([&] { return environment_field(*light, name); }), buffer, view);
     });
 }
 
@@ -227,8 +224,7 @@ lb_result lb_brdf_map(lb_brdf brdf, const char* name, lb_buffer* buffer, lb_buff
     return border([&] {
         require(name, "name");
         const auto material = materials().get(brdf, "brdf");
-        const gl::Device::Guard guard(material->device());
-        give_array(brdf_field(*material, name), buffer, view);
+        give_array(material->device()->run([&] { return brdf_field(*material, name); }), buffer, view);
     });
 }
 
@@ -259,7 +255,7 @@ lb_result lb_scene_set_environment(lb_scene scene, lb_environment environment) {
         const auto target = scenes().get(scene, "scene");
         const auto light = lights().get(environment, "environment");
         require_same_device(*target, *light, "environment");
-        const gl::Device::Guard guard(target->device());
+        const auto locked = target->device()->lock();
         target->light = light;
     });
 }
@@ -268,7 +264,7 @@ lb_result lb_scene_set_camera(lb_scene scene, const lb_camera_desc* camera) {
     return border([&] {
         const auto target = scenes().get(scene, "scene");
         const Camera checked = Camera::from(read_struct(camera, "camera"));
-        const gl::Device::Guard guard(target->device());
+        const auto locked = target->device()->lock();
         target->camera = checked;
     });
 }
@@ -279,7 +275,7 @@ lb_result lb_scene_add(lb_scene scene, lb_mesh mesh, lb_brdf brdf, const float* 
         Instance instance{meshes().get(mesh, "mesh"), materials().get(brdf, "brdf"), Transform::from(transform), true};
         require_same_device(*target, *instance.mesh, "mesh");
         require_same_device(*target, *instance.material, "brdf");
-        const gl::Device::Guard guard(target->device());
+        const auto locked = target->device()->lock();
         const uint32_t added = target->add(std::move(instance));
         if (index != nullptr) *index = added;
     });
@@ -288,7 +284,7 @@ lb_result lb_scene_add(lb_scene scene, lb_mesh mesh, lb_brdf brdf, const float* 
 lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const float* transform) {
     return border([&] {
         const auto target = scenes().get(scene, "scene");
-        const gl::Device::Guard guard(target->device());
+        const auto locked = target->device()->lock();
         target->instance(index).transform = Transform::from(transform);
     });
 }
@@ -296,7 +292,7 @@ lb_result lb_scene_set_transform(lb_scene scene, uint32_t index, const float* tr
 lb_result lb_scene_set_double_sided(lb_scene scene, uint32_t index, int32_t double_sided) {
     return border([&] {
         const auto target = scenes().get(scene, "scene");
-        const gl::Device::Guard guard(target->device());
+        const auto locked = target->device()->lock();
         target->instance(index).double_sided = double_sided != 0;
     });
 }

@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/host_thread.h"
+#include "base/process.h"
 #include "gl/objects.h"
 #include "gl/shader_sources.h"
 
@@ -10,8 +12,11 @@ namespace lightband::gl {
 namespace {
 
 void APIENTRY on_debug_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void* user) {
-    if (type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR)
+    if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) return;
+    try {
         static_cast<const Device*>(user)->log(message);
+    } catch (...) {  // the driver's code stands between: a call that its callback gave up ends at the next checkpoint
+    }
 }
 
 std::string info_log(const Functions& gl, GLuint object, bool program) {
@@ -57,40 +62,74 @@ std::unique_ptr<Program> link(const Functions& gl, const std::string& name, cons
 
 }  // namespace
 
-Device::Device(uint32_t device, lb_log_callback callback, void* user)
-    : context_(EglContext::create(device)), log_(callback), log_user_(user) {
-    const EglContext::Current current(*context_);
-    gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_texture_size_);
-    gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texture_buffer_texels_);
-    if (callback != nullptr) {
+Device::Device(uint32_t device, lb_log_callback callback, void* user) : log_(callback), log_user_(user) {
+    run([&] {
+        contents_.context = EglContext::create(device);
+        warm_up();
+        ContextThread::rest_at_exit();
+        gl().GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_texture_size_);
+        gl().GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texture_buffer_texels_);
+        if (callback == nullptr) return;
         gl().Enable(GL_DEBUG_OUTPUT);
         gl().Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
         gl().DebugMessageCallback(on_debug_message, this);
-    }
-    log(text("rendering on ", name()));
+    });
 }
 
-Device::~Device() {
-    const EglContext::Current current(*context_);
-    programs_.clear();
+// Compilers have static objects that they make when they first compile and destroy by exit handlers: made before the library's own handler
+// is registered, they are destroyed after it has brought contexts to rest.
+void Device::warm_up() {
+    const float value = 0;
+    const Buffer buffer(gl(), sizeof value, &value);
+    compute("warm_up").use();
+    gl().BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.name());
+    gl().DispatchCompute(1, 1, 1);
+    gl().Finish();
+    contents_.programs.clear();
+}
+
+Device::~Device() = default;
+
+Device::Contents::Contents(ContextThread& its_thread) : thread(its_thread) {}
+
+Device::Contents::~Contents() {
+    try {
+        thread.run(
+            [&] {
+                programs.clear();
+                context.reset();
+            },
+            ContextThread::Callbacks::refused);
+    } catch (...) {  // of a fork, or of a process that ends: both are left as they are
+        (void)context.release();
+    }
 }
 
 void Device::log(const std::string& message) const {
-    if (log_ != nullptr) log_(log_user_, message.c_str());
+    if (log_ == nullptr) return;
+    auto call = [&] { log_(log_user_, message.c_str()); };
+    if (thread_.is_current()) return thread_.call_back(call);
+    const HostThread::Callback running;
+    call();
 }
 
+// Every pass asks for its program first: there a call is left off when the process ends.
 const Program& Device::compute(const std::string& name, const std::string& definitions) {
+    checkpoint();
     const std::string key = name + '\n' + definitions;
-    const auto known = programs_.find(key);
-    if (known != programs_.end()) return *known->second;
-    return *programs_.emplace(key, link(gl(), name, definitions, {{GL_COMPUTE_SHADER, name + ".glsl"}})).first->second;
+    const auto known = contents_.programs.find(key);
+    if (known != contents_.programs.end()) return *known->second;
+    ContextThread::rest_at_exit();  // after what the compiler has registered for the programs before
+    return *contents_.programs.emplace(key, link(gl(), name, definitions, {{GL_COMPUTE_SHADER, name + ".glsl"}})).first->second;
 }
 
 const Program& Device::graphics(const std::string& name) {
-    const auto known = programs_.find(name);
-    if (known != programs_.end()) return *known->second;
+    checkpoint();
+    const auto known = contents_.programs.find(name);
+    if (known != contents_.programs.end()) return *known->second;
+    ContextThread::rest_at_exit();
     auto made = link(gl(), name, "", {{GL_VERTEX_SHADER, name + ".vert"}, {GL_FRAGMENT_SHADER, name + ".frag"}});
-    return *programs_.emplace(name, std::move(made)).first->second;
+    return *contents_.programs.emplace(name, std::move(made)).first->second;
 }
 
 void Device::check(const char* where) const {
@@ -100,7 +139,23 @@ void Device::check(const char* where) const {
     throw Error(LB_ERROR_DEVICE, text(where, ": OpenGL error ", error));
 }
 
-Device::Guard::Guard(std::shared_ptr<Device> device)
-    : device_(std::move(device)), lock_(device_->mutex_), current_(*device_->context_) {}
+// Errors are recorded until they are asked for: those of a call that fails are taken now, or the next call would fail for them.
+void Device::rethrow_without_errors() const {
+    // A process that ends goes on to the driver's exit handlers: what earlier passes have left to it must be done.
+    if (process_ends() && contents_.context != nullptr) gl().Finish();
+    constexpr int most_errors = 64;  // more than there are kinds of them; a context that was lost gives one for ever
+    bool out_of_memory = false;
+    GLenum error = contents_.context != nullptr ? gl().GetError() : GL_NO_ERROR;
+    for (int i = 0; i < most_errors && error != GL_NO_ERROR; ++i, error = gl().GetError())
+        out_of_memory = out_of_memory || error == GL_OUT_OF_MEMORY;
+    try {
+        throw;
+    } catch (const Error& failure) {
+        // What fails after memory ran out, as an incomplete framebuffer does, is its consequence.
+        if (out_of_memory && failure.code() == LB_ERROR_DEVICE)
+            throw Error(LB_ERROR_LIMIT, text("the device is out of memory (", failure.what(), ")"));
+        throw;
+    }
+}
 
 }  // namespace lightband::gl

@@ -5,6 +5,7 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
+#include <cstdio>
 #include <cstring>
 #include <vector>
 
@@ -16,14 +17,11 @@ struct EglApi {
     decltype(&eglGetProcAddress) GetProcAddress = nullptr;
     decltype(&eglInitialize) Initialize = nullptr;
     decltype(&eglBindAPI) BindAPI = nullptr;
-    decltype(&eglQueryAPI) QueryAPI = nullptr;
     decltype(&eglQueryString) QueryString = nullptr;
     decltype(&eglCreateContext) CreateContext = nullptr;
     decltype(&eglDestroyContext) DestroyContext = nullptr;
     decltype(&eglMakeCurrent) MakeCurrent = nullptr;
-    decltype(&eglGetCurrentContext) GetCurrentContext = nullptr;
-    decltype(&eglGetCurrentDisplay) GetCurrentDisplay = nullptr;
-    decltype(&eglGetCurrentSurface) GetCurrentSurface = nullptr;
+    decltype(&eglReleaseThread) ReleaseThread = nullptr;
     decltype(&eglGetError) GetError = nullptr;
     PFNEGLGETPLATFORMDISPLAYEXTPROC GetPlatformDisplay = nullptr;
     PFNEGLQUERYDEVICESEXTPROC QueryDevices = nullptr;  // may be missing
@@ -44,14 +42,11 @@ const EglApi& load_egl() {
         load(egl.GetProcAddress, "eglGetProcAddress");
         load(egl.Initialize, "eglInitialize");
         load(egl.BindAPI, "eglBindAPI");
-        load(egl.QueryAPI, "eglQueryAPI");
         load(egl.QueryString, "eglQueryString");
         load(egl.CreateContext, "eglCreateContext");
         load(egl.DestroyContext, "eglDestroyContext");
         load(egl.MakeCurrent, "eglMakeCurrent");
-        load(egl.GetCurrentContext, "eglGetCurrentContext");
-        load(egl.GetCurrentDisplay, "eglGetCurrentDisplay");
-        load(egl.GetCurrentSurface, "eglGetCurrentSurface");
+        load(egl.ReleaseThread, "eglReleaseThread");
         load(egl.GetError, "eglGetError");
         egl.GetPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
             egl.GetProcAddress("eglGetPlatformDisplayEXT"));
@@ -90,7 +85,7 @@ bool is_software(const std::string& renderer) {
     return false;
 }
 
-std::string hexadecimal(EGLint error) {
+std::string describe(EGLint error) {
     char digits[2 * sizeof error];
     return "EGL error 0x" + std::string(digits, std::to_chars(digits, digits + sizeof digits, uint32_t(error), 16).ptr);
 }
@@ -98,20 +93,17 @@ std::string hexadecimal(EGLint error) {
 void* create_context(const EglApi& api, void* display) {
     if (display == EGL_NO_DISPLAY) throw Error(LB_ERROR_DEVICE, "no display");
     EGLint major = 0, minor = 0;
-    if (!api.Initialize(display, &major, &minor)) throw Error(LB_ERROR_DEVICE, hexadecimal(api.GetError()));
+    if (!api.Initialize(display, &major, &minor)) throw Error(LB_ERROR_DEVICE, describe(api.GetError()));
     const char* extensions = api.QueryString(display, EGL_EXTENSIONS);
     for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_create_context"})
         if (extensions == nullptr || std::strstr(extensions, needed) == nullptr)
             throw Error(LB_ERROR_DEVICE, text("no ", needed));
-    const EGLenum api_before = api.QueryAPI();
     if (!api.BindAPI(EGL_OPENGL_API)) throw Error(LB_ERROR_DEVICE, "no OpenGL");
     const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     const EGLContext context = api.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-    const EGLint error = api.GetError();
-    api.BindAPI(api_before);
     if (context == EGL_NO_CONTEXT)
-        throw Error(LB_ERROR_DEVICE, text("no OpenGL 4.5 core context (", hexadecimal(error), ")"));
+        throw Error(LB_ERROR_DEVICE, text("no OpenGL 4.5 core context (", describe(api.GetError()), ")"));
     return context;
 }
 
@@ -120,7 +112,13 @@ void* create_context(const EglApi& api, void* display) {
 // The first is done once it holds the context: what the second throws ends in the destructor.
 EglContext::EglContext(const EglApi& api, void* display, void* context) : api_(api), display_(display), context_(context) {}
 EglContext::EglContext(const EglApi& api, void* display) : EglContext(api, display, create_context(api, display)) {
+    make_current();
     load_functions();
+}
+
+void EglContext::make_current() {
+    if (!api_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+        throw Error(LB_ERROR_DEVICE, text("the context cannot be made current: ", describe(api_.GetError())));
 }
 
 void EglContext::load_functions() {
@@ -131,7 +129,6 @@ void EglContext::load_functions() {
     LIGHTBAND_GL_FUNCTIONS(LIGHTBAND_GL_LOAD)
 #undef LIGHTBAND_GL_LOAD
     if (missing != nullptr) throw Error(LB_ERROR_DEVICE, text("the driver has no ", missing));
-    const Current current(*this);
     const auto string = [&](GLenum name) {
         const GLubyte* value = functions_.GetString(name);
         return value != nullptr ? std::string(reinterpret_cast<const char*>(value)) : std::string("unknown");
@@ -140,7 +137,10 @@ void EglContext::load_functions() {
     software_ = is_software(name_);
 }
 
+// A context is destroyed when it is no longer current: the thread lets go of it first, which it can even where the host has terminated
+// the display. There EGL has forgotten the context's name already, and only that.
 EglContext::~EglContext() {
+    api_.ReleaseThread();
     api_.DestroyContext(display_, context_);
 }
 
@@ -148,11 +148,15 @@ std::unique_ptr<EglContext> EglContext::create(uint32_t device) {
     const EglApi& egl = load_egl();
     std::string attempts;
     std::unique_ptr<EglContext> software;
+    const auto choose = [&](std::unique_ptr<EglContext> context) {
+        software.reset();
+        context->make_current();  // another that was tried may have been since
+        return context;
+    };
     for (const Candidate& candidate : candidates(egl, &attempts)) {
         try {
             std::unique_ptr<EglContext> context(new EglContext(egl, candidate.display));
-            if (!context->software() && device != LB_DEVICE_SOFTWARE) return context;
-            if (context->software() && device == LB_DEVICE_SOFTWARE) return context;
+            if (context->software() ? device == LB_DEVICE_SOFTWARE : device != LB_DEVICE_SOFTWARE) return choose(std::move(context));
             attempts += text("\n  ", candidate.name, ": ", context->name(),
                              context->software() ? " is a software renderer" : " is hardware");
             if (device == LB_DEVICE_ANY && software == nullptr) software = std::move(context);
@@ -160,32 +164,13 @@ std::unique_ptr<EglContext> EglContext::create(uint32_t device) {
             attempts += text("\n  ", candidate.name, ": ", error.what());
         }
     }
-    if (software != nullptr) return software;
+    if (software != nullptr) return choose(std::move(software));
     throw Error(LB_ERROR_DEVICE,
                 text("no ", device == LB_DEVICE_HARDWARE ? "hardware " : device == LB_DEVICE_SOFTWARE ? "software " : "",
                      "OpenGL 4.5 device; tried:", attempts,
                      device == LB_DEVICE_HARDWARE ? "\nSoftware rendering is chosen by LB_DEVICE_SOFTWARE or LB_DEVICE_ANY (in Python: "
                                                     "device=\"software\" or \"any\")."
                                                   : ""));
-}
-
-EglContext::Current::Current(const EglContext& context)
-    : context_(context),
-      display_(context.api_.GetCurrentDisplay()),
-      draw_(context.api_.GetCurrentSurface(EGL_DRAW)),
-      read_(context.api_.GetCurrentSurface(EGL_READ)),
-      previous_(context.api_.GetCurrentContext()) {
-    if (previous_ == context.context_) return;
-    if (!context.api_.MakeCurrent(context.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_))
-        throw Error(LB_ERROR_DEVICE, text("the context cannot be made current: ", hexadecimal(context.api_.GetError())));
-}
-
-EglContext::Current::~Current() {
-    if (previous_ == context_.context_) return;
-    if (previous_ != EGL_NO_CONTEXT)
-        context_.api_.MakeCurrent(display_, draw_, read_, previous_);
-    else
-        context_.api_.MakeCurrent(context_.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 }  // namespace lightband::gl

@@ -11,34 +11,25 @@ namespace lightband::gl {
 
 struct EglApi;
 
-// Owns one EGL context. The display is shared by the whole process (EGL hands out the same one for the same device), so
-// it is never terminated: the host may be using it.
+// Owns one EGL context, which is current on the thread that made it until that destroys it. The display is shared by the whole process
+// (EGL hands out the same one for the same device), so it is never terminated: the host may be using it. A host that terminates it
+// leaves a context that is current alone (EGL 1.5, section 3.2).
 class EglContext {
 public:
     // device: LB_DEVICE_*. Throws LB_ERROR_DEVICE with a line per attempt.
     static std::unique_ptr<EglContext> create(uint32_t device);
     ~EglContext();
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
 
     const Functions& functions() const { return functions_; }
     const std::string& name() const { return name_; }
     bool software() const { return software_; }
 
-    // Makes the context current on this thread for a scope, then brings back what was current before.
-    class Current {
-    public:
-        explicit Current(const EglContext& context);
-        ~Current();
-        Current(const Current&) = delete;
-        Current& operator=(const Current&) = delete;
-
-    private:
-        const EglContext& context_;
-        void *display_, *draw_, *read_, *previous_;
-    };
-
 private:
     EglContext(const EglApi& api, void* display, void* context);
     EglContext(const EglApi& api, void* display);
+    void make_current();
     void load_functions();
 
     const EglApi& api_;

@@ -97,7 +97,7 @@ int find(const std::string& name) {
 
 // choices split once; the strings that lb_frame_get_choice hands out live here.
 const std::vector<std::string>& choices_of(int place) {
-    static const std::vector<std::vector<std::string>> all = [] {
+    static const auto& all = *new std::vector<std::vector<std::string>>([] {
         std::vector<std::vector<std::string>> lists;
         for (const lb_setting_info& setting : table) {
             std::vector<std::string>& list = lists.emplace_back();
@@ -105,7 +105,7 @@ const std::vector<std::string>& choices_of(int place) {
             for (const std::string_view choice : split(setting.choices, '|')) list.emplace_back(choice);
         }
         return lists;
-    }();
+    }());
     return all[size_t(place)];
 }
 

@@ -13,21 +13,22 @@ using namespace lightband;
 
 void storage_beyond_the_device_is_refused(void**) {
     const auto device = std::make_shared<gl::Device>(LB_DEVICE_SOFTWARE, nullptr, nullptr);
-    const gl::Device::Guard guard(device);
-    const gl::Functions& gl = device->gl();
-    constexpr size_t too_much = size_t(1) << 46;  // bytes: more than a process can address beside its own
-    testing::expect_error(LB_ERROR_LIMIT, {"no memory", "buffer of 70368744177664 bytes"},
-                          [&] { gl::Buffer(gl, too_much, nullptr); });
-    const uint32_t side = uint32_t(device->max_texture_size());
-    constexpr uint32_t layers = 256;  // every OpenGL 4.5 takes so many; of 16,384 x 16,384 texels they are a tebibyte
-    testing::expect_error(LB_ERROR_LIMIT, {"no memory", "256 times"},
-                          [&] { gl::Texture::image_array(gl, GL_RGBA32F, side, side, layers, 1); });
-    device->check("afterwards");
-    const uint32_t word = 7;
-    uint32_t read = 0;
-    const gl::Buffer buffer(gl, sizeof word, &word);
-    buffer.read(0, sizeof read, &read);
-    assert_int_equal(read, word);
+    device->run([&] {
+        const gl::Functions& gl = device->gl();
+        constexpr size_t too_much = size_t(1) << 46;  // bytes: more than a process can address beside its own
+        testing::expect_error(LB_ERROR_LIMIT, {"no memory", "buffer of 70368744177664 bytes"},
+                              [&] { gl::Buffer(gl, too_much, nullptr); });
+        const uint32_t side = uint32_t(device->max_texture_size());
+        constexpr uint32_t layers = 256;  // every OpenGL 4.5 takes so many; of 16,384 x 16,384 texels they are a tebibyte
+        testing::expect_error(LB_ERROR_LIMIT, {"no memory", "256 times"},
+                              [&] { gl::Texture::image_array(gl, GL_RGBA32F, side, side, layers, 1); });
+        device->check("afterwards");
+        const uint32_t word = 7;
+        uint32_t read = 0;
+        const gl::Buffer buffer(gl, sizeof word, &word);
+        buffer.read(0, sizeof read, &read);
+        assert_int_equal(read, word);
+    });
 }
 
 void sources_are_whole_or_an_exception(void**) {

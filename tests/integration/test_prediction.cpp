@@ -44,13 +44,14 @@ SquareImage resampled(const RgbImage& map, int square_side, int lookups) {
 // Cycles per radian on the octahedral square, as the renderer's device computes them.
 std::vector<float> device_bandwidth(const RgbImage& map, BandRule rule, int* square_side) {
     const auto device = std::make_shared<gl::Device>(LB_DEVICE_SOFTWARE, nullptr, nullptr);
-    const gl::Device::Guard guard(device);
-    const Light light(device, map);
-    const EnvironmentBandwidth& bandwidth = light.bandwidth(rule);
-    *square_side = int(bandwidth.side);
-    std::vector<float> values(size_t(bandwidth.side) * bandwidth.side);
-    bandwidth.bandwidth.read(0, GL_RED, GL_FLOAT, values.size() * sizeof(float), values.data());
-    return values;
+    return device->run([&] {
+        const Light light(device, map);
+        const EnvironmentBandwidth& bandwidth = light.bandwidth(rule);
+        *square_side = int(bandwidth.side);
+        std::vector<float> values(size_t(bandwidth.side) * bandwidth.side);
+        bandwidth.bandwidth.read(0, GL_RED, GL_FLOAT, values.size() * sizeof(float), values.data());
+        return values;
+    });
 }
 
 // Coefficients of float are good to about 2^-20 of the light, and so is the place of the percentile within its band.
