@@ -16,6 +16,7 @@ struct Scenario {
     // All that the call may change, as bytes: the same before it and after its failure.
     std::function<std::vector<uint8_t>()> state;
     std::function<void()> release;  // all that prepare and call have made
+    bool recovers = false;          // the call may succeed although an allocation failed: maps are read once more
 };
 
 // Makes a context and some files, which last until the process ends.

@@ -48,6 +48,7 @@ CALL(lb_frame_release, world.frame)
 CALL(lb_buffer_retain, buffer)
 CALL(lb_buffer_release, buffer)
 CALL(lb_brdf_load, world.context, LIGHTBAND_TEST_MAP, (lb_brdf*)&made)
+CALL(lb_brdf_load_as_measured, world.context, LIGHTBAND_TEST_MAP, (lb_brdf*)&made)
 CALL(lb_brdf_builtin, world.context, "rough-gold", (lb_brdf*)&made)
 CALL(lb_brdf_create_table, world.context, table, TABLE_FLOATS, (lb_brdf*)&made)
 CALL(lb_brdf_create_lambert, world.context, some_vector, (lb_brdf*)&made)
@@ -77,7 +78,7 @@ CALL(lb_frame_render, world.frame, world.scene, NULL, NULL)
 CALL(lb_frame_info, world.frame, &frame_stats)
 CALL(lb_frame_explain, world.frame, NULL, 0, &size)
 CALL(lb_frame_map, world.frame, "color", (lb_buffer*)&made, &view)
-CALL(lb_frame_save, world.frame, "never-written.exr", NULL, 0)
+CALL(lb_frame_save, world.frame, "never-written.exr", NULL)
 #undef CALL
 
 #define ENTRY(function) {#function, call_##function}
@@ -88,7 +89,7 @@ static const struct {
     ENTRY(lb_context_create), ENTRY(lb_context_device_name), ENTRY(lb_context_is_software), ENTRY(lb_context_retain),
     ENTRY(lb_context_release), ENTRY(lb_brdf_retain), ENTRY(lb_brdf_release), ENTRY(lb_environment_retain),
     ENTRY(lb_environment_release), ENTRY(lb_mesh_retain), ENTRY(lb_mesh_release), ENTRY(lb_scene_retain), ENTRY(lb_scene_release),
-    ENTRY(lb_frame_retain), ENTRY(lb_frame_release), ENTRY(lb_buffer_retain), ENTRY(lb_buffer_release), ENTRY(lb_brdf_load),
+    ENTRY(lb_frame_retain), ENTRY(lb_frame_release), ENTRY(lb_buffer_retain), ENTRY(lb_buffer_release), ENTRY(lb_brdf_load), ENTRY(lb_brdf_load_as_measured),
     ENTRY(lb_brdf_builtin), ENTRY(lb_brdf_create_table), ENTRY(lb_brdf_create_lambert), ENTRY(lb_brdf_create_ggx),
     ENTRY(lb_brdf_evaluate), ENTRY(lb_brdf_albedo), ENTRY(lb_brdf_map), ENTRY(lb_environment_load), ENTRY(lb_environment_create),
     ENTRY(lb_environment_map), ENTRY(lb_mesh_create), ENTRY(lb_mesh_builtin), ENTRY(lb_mesh_info), ENTRY(lb_scene_create),

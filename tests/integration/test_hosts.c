@@ -60,8 +60,8 @@ static void compute_everything(struct world* objects, float results[6]) {
     must_ok(lb_frame_create(objects->context, PICTURE_SIZE, PICTURE_SIZE, &adaptive));
     must_ok(lb_frame_set_number(adaptive, "target_error", 0.1));
     must_ok(lb_frame_render(adaptive, objects->scene, NULL, NULL));
-    must_ok(lb_frame_save(adaptive, "traps.exr", NULL, 0));
-    must_ok(lb_frame_save(adaptive, "traps.png", NULL, 0));
+    must_ok(lb_frame_save(adaptive, "traps.exr", NULL));
+    must_ok(lb_frame_save(adaptive, "traps.png", NULL));
     remove("traps.exr");
     remove("traps.png");
     must(lb_brdf_create_ggx(objects->context, -1, f0, &ggx) == LB_ERROR_INVALID_ARGUMENT); /* numbers in a message */
