@@ -127,7 +127,13 @@ void parse_line(std::string_view line, const Reader& reader, Header* header) {
     } else if (starts_with(line, "COLORCORR=")) {  // the same, with one factor per channel
         for (double& channel : header->exposure) channel *= parse_factor(take_word(value), line, reader);
     } else if (starts_with(line, "PRIMARIES=")) {
-        header->primaries = parse_primaries(value, line, reader);
+        const Chromaticities primaries = parse_primaries(value, line, reader);
+        // Adobe Photoshop, with which Poly Haven's maps are made, writes eight zeros.
+        const Vec2 none(0);
+        if (primaries.red == none && primaries.green == none && primaries.blue == none && primaries.white == none)
+            header->notes.push_back("its header line PRIMARIES of zeros, which Adobe Photoshop writes, was taken for none");
+        else
+            header->primaries = primaries;
     }
 }
 

@@ -137,6 +137,7 @@ void test_primaries(void**) {
     expect_colour(parse_texel("PRIMARIES= .7347 .2653 0 1 .0001 -.077 .32168 .33767"), {grey, grey, grey}, rounding);
     expect_colour(parse_texel("PRIMARIES= .640 .330 .290 .600 .150 .060 .333 .333"), {grey, grey, grey}, rounding);
     expect_colour(parse_texel("PRIMARIES=0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329"), {grey, grey, grey}, 0);
+    expect_colour(parse_texel("PRIMARIES=0 0 0 0 0 0 0 0"), {grey, grey, grey}, 0);  // Adobe Photoshop
     // X = Y = Z is equal energy, white; 179 candelas per square metre of it are 1 watt per steradian and square metre.
     expect_colour(parse_texel("FORMAT=32-bit_rle_xyze"), {grey / 179, grey / 179, grey / 179}, rounding / 179);
 }
