@@ -9,7 +9,7 @@ layout(binding = 0, r8ui) readonly uniform uimage2D levels;
 #if defined(SHARES_FOLLOW_VARIANCE)
 layout(binding = 1, r32f) readonly uniform image2D variances;
 #endif
-layout(binding = 4, rgba16) writeonly uniform image2D weights;  // of the parents
+layout(binding = 4, rgba16) writeonly uniform image2D weights;  // of the parents; 0: they say nothing of this pixel
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
 #elif defined(INTERPOLATE_DIRECTIONS)
@@ -23,6 +23,7 @@ layout(binding = 2) uniform usampler2D materials;
 #endif
 layout(binding = 3) uniform usamplerBuffer brdf_of;
 #if defined(PREDICTED)
+const float saturated = 0.5;  // bandwidth, cycles per pixel: no lattice is fine enough
 #if !defined(INTERPOLATE_DIRECTIONS)
 #include "pilots_say.glsl"
 #endif
@@ -72,22 +73,29 @@ void around_lattice_point(ivec2 at, int level, out int least, inout float varian
     least = int(low);
 }
 
-// Whether the pixel may be interpolated: enough parents evenly around it, none of which (those at the far edges lie outside the
-// blocks around it) needs a finer spacing than theirs, or lies beyond a lamp's horizon. Keeps their weights for that.
-bool has_sound_parents(ivec2 at, int level, float pixel_level) {
+// Of the tolerance: pilots that contradict interpolation by more than that know of an edge, not only of their own noise.
+const float most_contradiction = 4.0;
+
+// The weights of the parents of a pixel, where there are enough of them, evenly around it; else 0. Their sum is 1; it is `doubtful` where the
+// pixel's own bandwidth, the pilots or a lamp's horizon speak against interpolation. sound: nothing does, nor does any parent (those at
+// the far edges lie outside the blocks around the pixel) need a finer spacing than this: it may be interpolated.
+vec4 weights_of_parents(ivec2 at, int level, float pixel_level, out bool sound) {
     Parents parents = parents_of(at, level, pixel_level);
-    if (!parents.balanced) return false;
+    sound = parents.balanced;
+    if (!sound) return vec4(0);
     float between = 0.0;
-    bool parted = false;
+    bool doubted = int(pixel_level) <= level;
     vec3 normal = surface_at(at).normal;
     for (int corner = 0; corner < 4; ++corner) {
         if (parents.weight[corner] <= 0.0) continue;
-        if (int(imageLoad(levels, parents.at[corner]).r) <= level) return false;
+        sound = sound && int(imageLoad(levels, parents.at[corner]).r) > level;
         between += parents.weight[corner] * expected_at(parents.at[corner]);
-        parted = parted || parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
+        doubted = doubted || parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
     }
-    imageStore(weights, at, vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]));
-    return !parted && abs(contradiction(expected_at(at), between)) <= tolerance;
+    float contradicted = abs(contradiction(expected_at(at), between));
+    sound = sound && !doubted && contradicted <= tolerance;
+    doubted = doubted || contradicted > most_contradiction * tolerance;
+    return (doubted ? doubtful : 1.0) * vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]);
 }
 
 #endif
@@ -123,7 +131,7 @@ void main() {
     int bin = SHARE_ONE;
     bool chosen = false, interpolate = false;
 #if defined(PREDICTED)
-    if (texelFetch(bandwidth, at, 0).b >= 0.5) atomicAdd(counts.saturated, 1u);
+    if (texelFetch(bandwidth, at, 0).b >= saturated) atomicAdd(counts.saturated, 1u);
     float variance = relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance), area = 1.0;
 #if defined(INTERPOLATE)
     chosen = is_chosen(at);
@@ -133,8 +141,12 @@ void main() {
     around_lattice_point(at, level, least, variance);
     uint own = imageLoad(levels, at).r;
     area = exp2(2.0 * float(min(level, int(own))));
-    interpolate = level < coarsest_level && least > level && (chosen || !former);
-    if (interpolate) interpolate = has_sound_parents(at, level, float(own));
+    // Shaded pixels have weights, too: they show a mean of their own value and of what their parents say (src/frame/combine.h). Bandwidths
+    // that are saturated tell of creases.
+    bool sound = false;
+    vec4 weight = level < coarsest_level && texelFetch(bandwidth, at, 0).b < saturated ? weights_of_parents(at, level, float(own), sound) : vec4(0);
+    imageStore(weights, at, weight);
+    interpolate = sound && least > level && (chosen || !former);
 #elif defined(INTERPOLATE_DIRECTIONS)
     uint word = texelFetch(cells, at, 0).r, slot = texelFetch(brdf_of, int(material)).r;
     if (level_of(word) != too_fine) {

@@ -14,7 +14,12 @@ void main() {
     ivec2 at;
     if (!covered_pixel(at)) return;
     uint decision = texelFetch(decisions, at, 0).r;
+#if defined(COMBINE)
+    if (!is_witness(decision)) return;
+#else
+    if (is_shaded(decision) && !is_witness(decision)) show_alone(at);
     if (decision != interpolate_it && !is_witness(decision)) return;
+#endif
     uint slot = texelFetch(brdf_of, int(texelFetch(materials, at, 0).r)).r;
     Neighbours neighbours = neighbours_of(covered_place(), texelFetch(cells, at, 0).r, slot);
     Blend sum = Blend(vec3(0), 0.0, 0.0);

@@ -16,3 +16,7 @@ bool is_repeated(ivec2 at, int level, int corner) {
     ivec2 odd = at >> level & 1, upper = ivec2(corner & 1, corner >> 1);
     return any(greaterThan(upper, odd));
 }
+
+// The sum of a pixel's weights of its parents is 1; where something speaks against interpolation, so that shaded pixels alone are compared
+// with it, it is `doubtful`. Between the two lies what rounding does not reach.
+const float doubtful = 0.5, doubtful_below = 0.75;

@@ -1,4 +1,4 @@
-// Interpolates the pixels that are new on one lattice and were not shaded (section 3.2).
+// Interpolates the pixels that are new on one lattice and were not shaded (section 3.2), and compares those that were.
 #include "common.glsl"
 #include "covered.glsl"
 #include "decision.glsl"
@@ -13,11 +13,16 @@ void main() {
     ivec2 at;
     if (!covered_pixel(at)) return;
     uint decision = texelFetch(decisions, at, 0).r;
-    if (decision != interpolate_it && !is_witness(decision)) return;
     vec4 weight = imageLoad(weights, at);
-    weight /= dot(weight, vec4(1));  // 1 but for the rounding to 16 bits
+    float all = dot(weight, vec4(1));  // 1 but for the rounding to 16 bits, or 0
+    if (all == 0.0) {
+        show_alone(at);
+        return;
+    }
+    weight /= all;
     Blend sum = Blend(vec3(0), 0.0, 0.0);
     for (int corner = 0; corner < 4; ++corner)
         if (weight[corner] > 0.0) blend(sum, at + towards_parent(at, level, corner), weight[corner]);
+    if (decision != interpolate_it && all < doubtful_below) sum.variance = -sum.variance;
     show(at, decision, sum);
 }

@@ -14,14 +14,17 @@ double luminance_at(const RoundPixels& pixels, size_t at) {
     return luminance(Vec3(rgb[0], rgb[1], rgb[2]));
 }
 
-double mean_luminance(const RoundPixels& pixels) {
-    double sum = 0, covered = 0;
-    for (size_t i = 0; i < pixels.material.size(); ++i) {
-        if (pixels.material[i] == 0) continue;
-        sum += luminance_at(pixels, i);
-        ++covered;
-    }
-    return covered > 0 ? sum / covered : 0;
+// What a shaded pixel shows is (1 - p) times its own value and p times the interpolated one, p being neighbour_part: so are its spread and,
+// with squared weights, its variance.
+double shown_luminance(const RoundPixels& pixels, size_t at) {
+    return luminance_at(pixels, at) + (pixels.combined ? 0 : neighbour_part(pixels, at) * double(pixels.spread[4 * at + 1]));
+}
+double shown_spread(const RoundPixels& pixels, size_t at) {
+    return pixels.spread[4 * at] + neighbour_part(pixels, at) * double(pixels.spread[4 * at + 2]);
+}
+double shown_variance(const RoundPixels& pixels, size_t at) {
+    const double part = neighbour_part(pixels, at), own = variance_of_mean(pixels, at);
+    return part > 0 ? (1 - part) * (1 - part) * own + part * part * std::abs(double(pixels.spread[4 * at + 3])) : own;
 }
 
 // The spread of a single pair of replicates has one degree of freedom; as many pixels as this say "independent samples" first, so
@@ -47,24 +50,27 @@ struct Audited {
     double deviation;     // of what was drawn there: not squared
     double own_part;      // its samples in one frame, in parts of the audit's: frames share their cuts; 0: the audit has no bias
     double drawn;         // what was drawn there
+    double shown;         // what the pixel shows: the same, or a mean of it and the interpolated value
     double interpolated;  // what interpolation would show, at a witness
 
     void add_to(AuditSum* sum, double square, double told) const { overtaken ? sum->add_believed(told) : sum->add(square, told); }
 };
 
 // frames: over which the picture is a mean.
-std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit, uint32_t frames, const ErrorEstimate& estimate) {
+std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit, uint32_t frames, double mean) {
     std::vector<Audited> result;
     for (const Audit::Pixel& seen : audit.pixels) {
         const size_t i = seen.at;
-        const double scale = scale_of(pixels, i, estimate.mean_luminance), samples = double(pixels.sample_count[i]) * frames;
-        const double known = scale_of(seen, estimate.mean_luminance);
+        const double scale = scale_of(pixels, i, mean), samples = double(pixels.sample_count[i]) * frames;
+        const double known = scale_of(seen, mean);
         if (!(scale > 0) || !(known > 0) || samples == 0) continue;
         const double shown = luminance_at(pixels, i), drawn = audit.square(seen, shown, known, samples);
         const bool witness = is_witness(pixels.decision[i]);
+        const double part = neighbour_part(pixels, i), left = pixels.combined ? 1 - part : 1;  // of the deviation, beyond `shown`
         result.push_back({i, scale, !audit.tells_of(seen, samples), (shown - double(seen.mean)) / known,
                           seen.biased ? double(pixels.sample_count[i]) / audit.samples : 0, drawn,
-                          witness ? audit.square_of_other(seen, shown + pixels.spread[4 * i + 1], known, drawn, samples) : 0});
+                          part > 0 ? audit.square_of_other(seen, shown_luminance(pixels, i), known, drawn, samples) : drawn,
+                          witness ? audit.square_of_other(seen, shown + left * pixels.spread[4 * i + 1], known, drawn, samples) : 0});
     }
     return result;
 }
@@ -75,11 +81,15 @@ double part_of(const RoundPixels& pixels, const std::vector<Audited>& audited) {
     return double(audited.size()) / std::max(double(pixels.material.size()) - double(unseen), 1.0);
 }
 
-// Squared noise over what the replicates tell of it. What they do not tell is not noise that two neighbours would differ by.
 double truth_of_spreads(const RoundPixels& pixels, const std::vector<Audited>& audited) {
     AuditSum sum(part_of(pixels, audited));
     for (const Audited& pixel : audited) pixel.add_to(&sum, pixel.drawn, std::pow(pixels.spread[4 * pixel.at] / pixel.scale, 2));
     return 1 + std::min(sum.beyond(1).mean, 0.0);
+}
+
+// The part of interpolation in what a pixel shows.
+double interpolated_part(const RoundPixels& pixels, size_t at) {
+    return is_interpolated(pixels.decision[at]) ? 1 : neighbour_part(pixels, at);
 }
 
 // Squared error of interpolation at a witness. The square of its deviation holds the noise of both values; what the replicates tell
@@ -132,7 +142,9 @@ void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, do
     const double part = interpolated_part(pixels, audited, *estimate), hidden = hidden_of(audited);
     for (const Audited& pixel : audited) {
         const double per_scale = estimate->stratification / (pixel.scale * pixel.scale);
-        double square = pixel.drawn, told = per_scale * variance_of_mean(pixels, pixel.at);
+        const double own_part = neighbour_part(pixels, pixel.at);
+        double square = pixel.shown, told = per_scale * shown_variance(pixels, pixel.at);
+        if (own_part > 0) told += own_part * own_part * witnessed(pixels, pixel.at, pixel.scale, truth);
         if (is_witness(pixels.decision[pixel.at])) {
             square += part * (pixel.interpolated - square);
             told += part * (per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth) - told);
@@ -155,7 +167,7 @@ struct NoiseSums {
             ++covered;
             const double scale = scale_of(pixels, i, mean_luminance);
             if (!(scale > 0)) continue;  // a frame without light has no error
-            const double spread = pixels.spread[4 * i] / scale, variance = variance_of_mean(pixels, i) / (scale * scale);
+            const double spread = shown_spread(pixels, i) / scale, variance = shown_variance(pixels, i) / (scale * scale);
             spreads += spread * spread;
             variances += variance;
             squares += variance * variance;
@@ -176,7 +188,7 @@ double scale_of(double shown, double expected, double mean_luminance) {
 }
 
 double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
-    const double shown = luminance_at(pixels, at), sure = shown - sure_deviations * std::sqrt(variance_of_mean(pixels, at));
+    const double shown = shown_luminance(pixels, at), sure = shown - sure_deviations * std::sqrt(shown_variance(pixels, at));
     const double scale = scale_of(shown, pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
     return std::max(scale, sure + dark_part * mean_luminance);
 }
@@ -184,6 +196,24 @@ double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
 double scale_of(const Audit::Pixel& seen, double mean_luminance) { return seen.mean + dark_part * mean_luminance; }
 
 double ErrorEstimate::error() const { return std::sqrt(noise + interpolation + bias); }
+
+double neighbour_part(const RoundPixels& pixels, size_t at) {
+    return pixels.neighbour_part.empty() ? 0 : pixels.neighbour_part[at] / 255.0;
+}
+
+double mean_luminance(const RoundPixels& pixels) {
+    double sum = 0, covered = 0;
+    for (size_t i = 0; i < pixels.material.size(); ++i) {
+        if (pixels.material[i] == 0) continue;
+        sum += shown_luminance(pixels, i);
+        ++covered;
+    }
+    return covered > 0 ? sum / covered : 0;
+}
+
+double truth_of_spreads(const RoundPixels& pixels, const Audit& audit, double mean_luminance) {
+    return truth_of_spreads(pixels, held_against(pixels, audit, 1, mean_luminance));
+}
 
 double variance_of_mean(const RoundPixels& pixels, size_t at) {
     const double square = pixels.radiance[4 * at + 3], mean = luminance_at(pixels, at);
@@ -213,14 +243,17 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         result.stratification = (sums.spreads + prior) / (sums.variances + prior);
     }
     sums.tell(&result);
-    const std::vector<Audited> audited = held_against(pixels, audit, 1, result);
+    const std::vector<Audited> audited = held_against(pixels, audit, 1, result.mean_luminance);
     const double truth = truth_of_spreads(pixels, audited);
     std::vector<WitnessSums> witnesses(slots);
     for (size_t i = 0; i < pixels.material.size(); ++i) {
-        if (pixels.material[i] == 0 || !is_witness(pixels.decision[i])) continue;
+        const double part = neighbour_part(pixels, i);
+        if (pixels.material[i] == 0 || !(is_witness(pixels.decision[i]) || part > 0)) continue;
         const double scale = scale_of(pixels, i, result.mean_luminance);
         if (!(scale > 0)) continue;
         const uint32_t slot = slot_of[pixels.material[i] - 1u];
+        result.slots[slot].combined += part * part * witnessed(pixels, i, scale, truth);
+        if (!is_witness(pixels.decision[i])) continue;
         ++result.slots[slot].witnesses;
         const double square = witnessed(pixels, i, scale, truth);
         witnesses[slot].sum += square;
@@ -232,12 +265,15 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
     }
     for (size_t slot = 0; slot < slots; ++slot) {
         ErrorEstimate::Slot& own = result.slots[slot];
+        own.interpolation = std::max(own.combined, 0.0) / std::max(double(own.covered), 1.0);
+        result.interpolation += own.interpolation * double(own.covered) / sums.covered;
         if (own.witnesses == 0) continue;
         const double count = double(own.witnesses), mean = witnesses[slot].sum / count;
         const double part = double(own.interpolated) / double(own.covered);
-        own.interpolation = std::max(mean, 0.0) * part;
+        const double interpolated = std::max(mean, 0.0) * part;
+        own.interpolation += interpolated;
         own.interpolation_deviation = std::sqrt(std::max(witnesses[slot].squares / count - mean * mean, 0.0) / count) * part;
-        result.interpolation += own.interpolation * double(own.covered) / sums.covered;
+        result.interpolation += interpolated * double(own.covered) / sums.covered;
         result.interpolation_deviation =
             std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / sums.covered);
     }
@@ -249,7 +285,7 @@ void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frame
     estimate->stratification /= frames;
     estimate->mean_luminance = mean_luminance(pixels);
     if (const NoiseSums sums(pixels, estimate->mean_luminance); sums.covered > 0) sums.tell(estimate);
-    const std::vector<Audited> audited = held_against(pixels, audit, frames, *estimate);
+    const std::vector<Audited> audited = held_against(pixels, audit, frames, estimate->mean_luminance);
     add_bias(pixels, audited, truth_of_spreads(pixels, audited), estimate);
 }
 
@@ -257,7 +293,8 @@ std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& 
                                 const std::vector<float>& shape) {
     std::vector<double> shape_sums(estimate.slots.size());
     for (size_t i = 0; i < pixels.material.size(); ++i)
-        if (is_interpolated(pixels.decision[i])) shape_sums[slot_of[pixels.material[i] - 1u]] += shape[i];
+        if (const double part = interpolated_part(pixels, i); part > 0)
+            shape_sums[slot_of[pixels.material[i] - 1u]] += part * part * shape[i];
     // Where an audit found less than the spreads tell, every pixel's noise is less in that proportion.
     const double known_better =
         estimate.bias < 0 ? estimate.stratification * estimate.shading() / estimate.noise : estimate.stratification;
@@ -266,12 +303,13 @@ std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& 
         if (pixels.material[i] == 0) continue;
         const double scale = scale_of(pixels, i, estimate.mean_luminance);
         if (!(scale > 0)) continue;
-        double square = known_better * variance_of_mean(pixels, i) / (scale * scale) + std::max(estimate.bias, 0.0);
-        if (is_interpolated(pixels.decision[i])) {
+        double square = known_better * shown_variance(pixels, i) / (scale * scale) + std::max(estimate.bias, 0.0);
+        if (const double part = interpolated_part(pixels, i); part > 0) {
             const uint32_t slot = slot_of[pixels.material[i] - 1u];
             const ErrorEstimate::Slot& own = estimate.slots[slot];
             const double all = own.interpolation * double(own.covered);  // summed over the slot's pixels
-            square += shape_sums[slot] > 0 ? all * shape[i] / shape_sums[slot] : all / double(own.interpolated);
+            square += shape_sums[slot] > 0 ? all * part * part * shape[i] / shape_sums[slot]
+                                           : all / std::max(double(own.interpolated), 1.0);
         }
         errors[i] = float(std::sqrt(square));
     }

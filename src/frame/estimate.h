@@ -28,6 +28,10 @@ struct RoundPixels {
     std::vector<float> expected;  // luminance, as predicted; empty where nothing was
     std::vector<uint32_t> sample_count;
     std::vector<uint8_t> decision, material;
+    // Of the interpolated value in what a shaded pixel shows, in 255ths (frame/combine.h); empty: none. combined: whether radiance is
+    // that mean already, rather than the pixel's own value.
+    std::vector<uint8_t> neighbour_part;
+    bool combined = false;
 };
 
 // Mean squares over the covered pixels.
@@ -35,6 +39,7 @@ struct ErrorEstimate {
     struct Slot {
         uint64_t covered = 0, interpolated = 0, witnesses = 0;
         double interpolation = 0;            // over this slot's covered pixels
+        double combined = 0;                 // squared errors of interpolation in what its shaded pixels show, summed
         double interpolation_deviation = 0;  // standard error of it
     };
     // Witnesses of a tile: their squared errors by interpolation, and those squares' squares, summed.
@@ -74,7 +79,15 @@ void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frame
 std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,
                                 const std::vector<float>& shape);
 
-// Variance of the luminance that a pixel shows, as if its samples were independent.
+// Variance of the luminance that a pixel's own samples give, or that an interpolated one shows, as if samples were independent.
 double variance_of_mean(const RoundPixels& pixels, size_t at);
+// The part of the interpolated value in what a shaded pixel shows.
+double neighbour_part(const RoundPixels& pixels, size_t at);
+
+// Mean luminance of the covered pixels.
+double mean_luminance(const RoundPixels& pixels);
+// Squared noise over what the replicates tell of it, at most 1, by the audited pixels' own values. What they do not tell is not noise that
+// two neighbours would differ by.
+double truth_of_spreads(const RoundPixels& pixels, const Audit& audit, double mean_luminance);
 
 }  // namespace lightband

@@ -62,6 +62,8 @@ RoundPixels Frame::Result::read_round() const {
     pixels.sample_count = read_words(shading.sample_count, count);
     pixels.decision = read_bytes(shading.decision, count);
     pixels.material = read_bytes(gbuffer.material, count);
+    pixels.neighbour_part = neighbour_part;
+    pixels.combined = !neighbour_part.empty();
     return pixels;
 }
 

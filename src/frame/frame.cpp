@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "frame/combine.h"
 #include "frame/job.h"
 #include "passes/foresee.h"
 #include "passes/gbuffer.h"
@@ -306,6 +307,9 @@ void Frame::shade(Job* job, const passes::Seeds& seeds) const {
 void Frame::measure(Job* job) const {
     Result& next = *job->result;
     RoundPixels pixels = next.read_round();
+    const bool image = next.prediction && next.prediction->pyramids;
+    pixels.neighbour_part = neighbour_parts(pixels, job->audit, job->tiles, width_, image ? settings.coarsest_level() : 0,
+                                            settings.accumulate());
     next.estimate = estimate_error(pixels, next.slot_of, next.slots, job->audit, job->tiles);
     job->samples = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
     // A pixel is drawn anew or left as it was.
@@ -322,6 +326,16 @@ void Frame::measure(Job* job) const {
                        text("error by noise ", next.estimate.noise_error(), ", by interpolation ", next.estimate.interpolation_error(),
                             ", by bias ", next.estimate.bias_error()),
                        0, this->pixels(), "pixels");
+}
+
+// Makes shaded pixels show what the estimate took them to show.
+void Frame::combine(const Job& job) const {
+    Result& next = *job.result;
+    if (job.pixels.neighbour_part.empty()) return;
+    passes::combine(*device_, settings, job.slot_of, job.covered, next.gbuffer, *next.prediction, job.pixels.neighbour_part, width_,
+                    next.shading);
+    next.neighbour_part = job.pixels.neighbour_part;
+    next.plan.finished("combine", "shaded pixels joined with what is interpolated there", 0, job.covered.all.count, "pixels");
 }
 
 // False: see Frame::list.
@@ -344,18 +358,20 @@ bool Frame::rounds(Job* job, const Forecast& forecast) const {
         const double begun = next.plan.total_milliseconds(), shaded = next.plan.milliseconds_of({"shade"});
         const size_t programs = device_->program_count();
         if (!list(job, &control, forecast)) return false;
-        if (job->drawn.pixels == 0 && next.stats.rounds > 1) {
-            --next.stats.rounds;  // nothing is left that would be worth it
-            break;
-        }
+        const bool nothing_left = job->drawn.pixels == 0 && next.stats.rounds > 1;  // that would be worth it
         if (job->drawn.samples >= worth_new_points) points_seed = settings.seed() + next.stats.rounds - 1;
         shade(job, {settings.seed() + next.stats.rounds - 1, points_seed});
         measure(job);
+        if (nothing_left) {
+            --next.stats.rounds;
+            break;
+        }
         cost.elapsed_milliseconds = next.plan.total_milliseconds();
         cost.shading_milliseconds = next.plan.milliseconds_of({"shade"}) - shaded;
         cost.other_milliseconds = cost.elapsed_milliseconds - begun - cost.shading_milliseconds;
         cost.made_programs = device_->program_count() > programs;
     } while (control.again(next.estimate, cost));
+    combine(*job);
     job->pace = control.pace();
     return true;
 }
@@ -372,6 +388,7 @@ void Frame::accumulate(Job* job) const {
         job->further = frames - 1 - frame;
         next.shading.clear(device_->gl());
         shade(job, {settings.seed() + frame, settings.seed() + frame});
+        combine(*job);
         add_radiance(next.shading.radiance, &scratch, &sum);
         job->samples += each;
         next.plan.count("shade", job->samples);

@@ -98,6 +98,7 @@ private:
     void report_shading(const Job& job, double samples) const;
     void shade(Job* job, const passes::Seeds& seeds) const;
     void measure(Job* job) const;
+    void combine(const Job& job) const;
     void accumulate(Job* job) const;
     void finish(Job* job) const;
     std::vector<float> interpolation_shape() const;

@@ -25,6 +25,7 @@ struct Frame::Result {
     RoundPixels read_round() const;  // of several frames, their mean
     Tiles tiles() const;
     std::vector<float> areas() const;  // the number of pixels for which each shaded one stands; empty where nothing is interpolated
+    std::vector<uint8_t> neighbour_part;  // RoundPixels: of the finished picture, which shows it; empty before
     std::vector<float> accumulated;    // RGBA means over several frames, where asked for
     Plan plan;
     lb_frame_stats stats = LB_FRAME_STATS_INIT;

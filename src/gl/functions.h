@@ -14,6 +14,7 @@
     X(PFNGLCLEARNAMEDBUFFERDATAPROC, ClearNamedBufferData) \
     X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv) \
     X(PFNGLCLEARTEXIMAGEPROC, ClearTexImage)               \
+    X(PFNGLCOPYIMAGESUBDATAPROC, CopyImageSubData)         \
     X(PFNGLCLIPCONTROLPROC, ClipControl)                   \
     X(PFNGLCOMPILESHADERPROC, CompileShader)               \
     X(PFNGLCREATEBUFFERSPROC, CreateBuffers)               \

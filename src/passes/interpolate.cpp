@@ -4,12 +4,14 @@
 #include "passes/gbuffer.h"
 
 namespace lightband::passes {
+namespace {
 
-void interpolate(gl::Device& device, const Settings& settings, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer,
-                 const Prediction& prediction, const Shading& target) {
+void run(gl::Device& device, const Settings& settings, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer,
+         const Prediction& prediction, bool combined, const Shading& target) {
     const gl::Functions& gl = device.gl();
-    const gl::Program& program =
-        prediction.mirrors ? device.compute("interpolate", prediction.mirrors->definitions()) : device.compute("upsample");
+    const gl::Program& program = prediction.mirrors
+                                     ? device.compute("interpolate", text(prediction.mirrors->definitions(), combined ? "\nCOMBINE" : ""))
+                                     : device.compute("upsample", combined ? "COMBINE" : "");
     program.use();
     bind_texture(gl, 3, target.decision);
     bind_texture(gl, 4, target.sample_count);
@@ -30,6 +32,32 @@ void interpolate(gl::Device& device, const Settings& settings, const SlotTable& 
         program.set("level", int32_t(level));
         dispatch_covered(gl, program, covered, covered.levels[level]);
     }
+}
+
+}  // namespace
+
+void interpolate(gl::Device& device, const Settings& settings, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer,
+                 const Prediction& prediction, const Shading& target) {
+    run(device, settings, slot_of, covered, gbuffer, prediction, false, target);
+}
+
+void combine(gl::Device& device, const Settings& settings, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer,
+             const Prediction& prediction, const std::vector<uint8_t>& neighbour_parts, uint32_t width, const Shading& target) {
+    const gl::Functions& gl = device.gl();
+    const uint32_t height = uint32_t(neighbour_parts.size() / width);
+    const gl::Texture parts = gl::Texture::image(gl, GL_R8UI, width, height);
+    parts.upload(width, height, GL_RED_INTEGER, GL_UNSIGNED_BYTE, neighbour_parts.data());
+    bind_texture(gl, 7, parts);
+    // Lattices are written from coarse to fine, so that every pixel finds its parents finished. Over directions, a pixel's neighbours may
+    // be written at the same time: all are interpolated from what was there before.
+    gl::Texture before;
+    if (prediction.mirrors) {
+        before = gl::Texture::image(gl, GL_RGBA32F, width, height);
+        gl.CopyImageSubData(target.radiance.name(), GL_TEXTURE_2D, 0, 0, 0, 0, before.name(), GL_TEXTURE_2D, 0, 0, 0, 0, GLsizei(width),
+                            GLsizei(height), 1);
+    }
+    bind_image(gl, 3, prediction.mirrors ? before : target.radiance, GL_RGBA32F);
+    run(device, settings, slot_of, covered, gbuffer, prediction, true, target);
 }
 
 }  // namespace lightband::passes

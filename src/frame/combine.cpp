@@ -1,0 +1,136 @@
+#include "frame/combine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "picture/decision.h"
+
+namespace lightband {
+namespace {
+
+// A tile's sums are joined by so many pixels that saw the frame's means, as a few pixels know a variance badly.
+constexpr double prior_pixels = 8;
+
+// Sums over comparable pixels of squares relative to their scales. With own value y, spread s, and interpolated value z, spread t:
+struct Sums {
+    double count = 0;
+    double own = 0;        // s (s - t): variance of y less its covariance with z
+    double noise = 0;      // (t - s)^2: variance of z - y
+    double deviation = 0;  // (z - y)^2: the same and the squared error of interpolation
+
+    void add(const Sums& other, double times) {
+        count += times * other.count;
+        own += times * other.own;
+        noise += times * other.noise;
+        deviation += times * other.deviation;
+    }
+};
+
+// A pixel that is shaded and was compared with what interpolation would give.
+bool is_comparable(const RoundPixels& pixels, size_t at) {
+    return pixels.material[at] != 0 && is_shaded(pixels.decision[at]) && pixels.spread[4 * at + 3] != 0;
+}
+
+// A square is believed up to 1, as those of audits and witnesses are.
+double believed(double square) { return std::clamp(square, -AuditSum::largest_square, AuditSum::largest_square); }
+
+Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
+    const double scale = scale_of(pixels, at, mean);
+    if (!(scale > 0)) return {};
+    const float* spread = &pixels.spread[4 * at];
+    const double own = spread[0] / scale, deviation = spread[1] / scale, difference = spread[2] / scale;
+    return {1, believed(-own * difference), believed(difference * difference), believed(deviation * deviation)};
+}
+
+// Squared error of interpolation of pixels on one lattice, as means, at most what is seen of them and of those on the next coarser one. Seen
+// are D = N + I and D' = N' + I': the squared deviations, N the noise of either, I the errors of interpolation. Spreads tell of N, but may
+// miss a part; then D - N is too much. Across twice the distance interpolation errs at least twice as much (an edge; 16 times where the
+// picture is smooth), and noise falls as the spreads' does: D' - (N' / N) D >= (2 - N' / N) I.
+double interpolation_of(const Sums& here, const Sums& coarser, double truth) {
+    constexpr double least_growth = 2;
+    const double most = std::max(here.deviation - truth * here.noise, 0.0) / here.count;
+    if (!(coarser.count > 0) || !(here.noise > 0)) return most;
+    const double fall = std::min(coarser.noise / coarser.count / (here.noise / here.count), 1.0);
+    const double grown = std::max(coarser.deviation / coarser.count - fall * here.deviation / here.count, 0.0);
+    return std::min(most, grown / (least_growth - fall));
+}
+
+// (1 - p) y + p z errs least at p = (var y - cov(y, z)) / (var(z - y) + squared error of interpolation).
+double best_part(const Sums& here, const Sums& coarser, double truth, uint32_t frames) {
+    if (!(here.count > 0) || !(here.noise > 0)) return 0;
+    const double interpolation = interpolation_of(here, coarser, truth);
+    const double noise = std::max(here.deviation / here.count - interpolation, truth * here.noise / here.count) / frames;
+    const double all = interpolation + noise;
+    return all > 0 ? std::clamp(here.own / here.noise * noise / all, 0.0, 1.0) : 0;
+}
+
+// Pixels of one kind in each tile, and all of them: of one lattice, so that they have about as many samples and are interpolated across
+// the same distance; those apart where something speaks against interpolation (doubtful: shaders/lattice.glsl).
+class Pools {
+public:
+    Pools(const RoundPixels& pixels, const Tiles& tiles, uint32_t width, uint32_t coarsest, double mean)
+        : pixels_(pixels), tiles_(tiles), width_(width), coarsest_(coarsest), mean_(mean), of_kind_(kinds()), of_tile_(tiles.count * kinds()) {
+        for (size_t i = 0; i < pixels.material.size(); ++i) {
+            if (!is_comparable(pixels, i)) continue;
+            const Sums own = sums_of(pixels, i, mean);
+            of_kind_[kind_of(i)].add(own, 1);
+            of_tile_[tiles.of[i] * kinds() + kind_of(i)].add(own, 1);
+        }
+    }
+
+    // Of the pixels beside that one, without it.
+    Sums around(size_t at) const {
+        const size_t kind = kind_of(at);
+        Sums result = of_tile_[tiles_.of[at] * kinds() + kind];
+        const double prior = prior_pixels / of_kind_[kind].count;
+        result.add(of_kind_[kind], prior);
+        result.add(sums_of(pixels_, at, mean_), -1 - prior);
+        return result;
+    }
+
+    // The same on the next coarser lattice. Pixels that are rare there err by as much more or less than the frame's as those around do.
+    Sums around_on_coarser(size_t at, const Sums& around) const {
+        const size_t kind = kind_of(at), coarser = kind + 2;
+        if (coarser >= kinds() || !(of_kind_[coarser].count > 0) || !(of_kind_[kind].deviation > 0)) return {};
+        Sums prior = of_kind_[coarser];
+        const double scale = around.deviation / around.count / (of_kind_[kind].deviation / of_kind_[kind].count);
+        prior.noise *= scale;
+        prior.deviation *= scale;
+        Sums result = of_tile_[tiles_.of[at] * kinds() + coarser];
+        result.add(prior, prior_pixels / prior.count);
+        return result;
+    }
+
+private:
+    size_t kinds() const { return 2 * (size_t(coarsest_) + 1); }
+    size_t kind_of(size_t at) const {
+        const bool doubtful = pixels_.spread[4 * at + 3] < 0;
+        return 2 * size_t(lattice_level(uint32_t(at % width_), uint32_t(at / width_), coarsest_)) + doubtful;
+    }
+
+    const RoundPixels& pixels_;
+    const Tiles& tiles_;
+    const uint32_t width_, coarsest_;
+    const double mean_;
+    std::vector<Sums> of_kind_, of_tile_;
+};
+
+}  // namespace
+
+// A pixel's own values are not among those that choose its part: else what it shows would lean to whatever its noise made look good, and
+// its spread would no longer tell the error of that.
+std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const Audit& audit, const Tiles& tiles, uint32_t width, uint32_t coarsest,
+                                     uint32_t frames) {
+    if (tiles.count == 0) return {};
+    const double mean = mean_luminance(pixels), truth = truth_of_spreads(pixels, audit, mean);
+    const Pools pools(pixels, tiles, width, coarsest, mean);
+    std::vector<uint8_t> parts(pixels.material.size());
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (!is_comparable(pixels, i)) continue;
+        const Sums around = pools.around(i);
+        parts[i] = uint8_t(std::lround(255 * best_part(around, pools.around_on_coarser(i, around), truth, frames)));
+    }
+    return parts;
+}
+
+}  // namespace lightband
