@@ -77,24 +77,27 @@ void around_lattice_point(ivec2 at, int level, out int least, inout float varian
 const float most_contradiction = 4.0;
 
 // The weights of the parents of a pixel, where there are enough of them, evenly around it; else 0. Their sum is 1; it is `doubtful` where the
-// pixel's own bandwidth, the pilots or a lamp's horizon speak against interpolation. sound: nothing does, nor does any parent (those at
+// pixel's own bandwidth, the pilots, a silhouette or a lamp's horizon speak against interpolation. sound: nothing does, nor does any parent (those at
 // the far edges lie outside the blocks around the pixel) need a finer spacing than this: it may be interpolated.
 vec4 weights_of_parents(ivec2 at, int level, float pixel_level, out bool sound) {
     Parents parents = parents_of(at, level, pixel_level);
     sound = parents.balanced;
     if (!sound) return vec4(0);
     float between = 0.0;
-    bool doubted = int(pixel_level) <= level;
+    bool doubted = int(pixel_level) <= level, incomplete = false;
     vec3 normal = surface_at(at).normal;
     for (int corner = 0; corner < 4; ++corner) {
-        if (parents.weight[corner] <= 0.0) continue;
+        if (parents.weight[corner] <= 0.0) {
+            incomplete = incomplete || !is_repeated(at, level, corner);
+            continue;
+        }
         sound = sound && int(imageLoad(levels, parents.at[corner]).r) > level;
         between += parents.weight[corner] * expected_at(parents.at[corner]);
         doubted = doubted || parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
     }
     float contradicted = abs(contradiction(expected_at(at), between));
     sound = sound && !doubted && contradicted <= tolerance;
-    doubted = doubted || contradicted > most_contradiction * tolerance;
+    doubted = doubted || incomplete || contradicted > most_contradiction * tolerance;
     return (doubted ? doubtful : 1.0) * vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]);
 }
 

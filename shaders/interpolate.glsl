@@ -17,7 +17,7 @@ void main() {
 #if defined(COMBINE)
     if (!is_witness(decision)) return;
 #else
-    if (is_shaded(decision) && !is_witness(decision)) show_alone(at);
+    if (is_shaded(decision) && !is_witness(decision)) forget_comparison(at);
     if (decision != interpolate_it && !is_witness(decision)) return;
 #endif
     uint slot = texelFetch(brdf_of, int(texelFetch(materials, at, 0).r)).r;

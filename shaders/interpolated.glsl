@@ -1,11 +1,11 @@
 // What an interpolated pixel shows. At a shaded pixel the interpolated value is first only compared with the pixel's own, and the host
-// decides from all comparisons how much either is worth (src/frame/combine.h). COMBINE: a second pass writes what such pixels show.
+// decides from all comparisons how much either is worth (src/frame/combine.h). COMBINE: a last pass writes what such pixels show.
 layout(binding = 4) uniform usampler2D sample_counts;
 layout(binding = 0, rgba32f) uniform image2D radiances;  // src/picture/targets.h
 layout(binding = 2, rgba32f) uniform image2D spreads;
 #if defined(COMBINE)
 layout(binding = 3, rgba32f) readonly uniform image2D sources;  // radiances that are interpolated
-layout(binding = 7) uniform usampler2D neighbour_parts;  // of the interpolated value in what a shaded pixel shows, in 255ths
+layout(binding = 7) uniform usampler2D neighbour_parts;         // of the interpolated value in what a shaded pixel shows, in 255ths
 #else
 #define sources radiances
 #endif
@@ -33,8 +33,8 @@ vec3 blend(inout Blend sum, ivec2 at, float weight) {
     return radiance.rgb;
 }
 
-// A shaded pixel that nothing is known to interpolate.
-void show_alone(ivec2 at) {
+// Of a shaded pixel that cannot be interpolated: what a former round may have left.
+void forget_comparison(ivec2 at) {
 #if !defined(COMBINE)
     imageStore(spreads, at, vec4(imageLoad(spreads, at).r, 0, 0, 0));
 #endif
@@ -43,10 +43,10 @@ void show_alone(ivec2 at) {
 void show(ivec2 at, uint decision, Blend sum) {
     vec4 own = imageLoad(radiances, at);
 #if defined(COMBINE)
-    vec3 rgb = decision == interpolate_it ? sum.rgb : mix(own.rgb, sum.rgb, float(texelFetch(neighbour_parts, at, 0).r) / 255.0);
-    // The samples of a shaded pixel keep their variance: the mean of squares moves with the square of the mean.
+    vec3 rgb = mix(own.rgb, sum.rgb, float(texelFetch(neighbour_parts, at, 0).r) / 255.0);
+    // The samples keep their variance: the mean of squares moves with the square of the mean.
     float before = luminance(own.rgb), after = luminance(rgb);
-    imageStore(radiances, at, vec4(rgb, decision == interpolate_it ? own.a : own.a + after * after - before * before));
+    imageStore(radiances, at, vec4(rgb, own.a + after * after - before * before));
 #else
     if (decision == interpolate_it) {
         imageStore(radiances, at, vec4(sum.rgb, sum.variance));

@@ -13,16 +13,19 @@ void main() {
     ivec2 at;
     if (!covered_pixel(at)) return;
     uint decision = texelFetch(decisions, at, 0).r;
+#if defined(COMBINE)
+    if (!is_shaded(decision)) return;
+#endif
     vec4 weight = imageLoad(weights, at);
-    float all = dot(weight, vec4(1));  // 1 but for the rounding to 16 bits, or 0
+    float all = dot(weight, vec4(1));  // 1, `doubtful` or 0, but for the rounding to 16 bits
     if (all == 0.0) {
-        show_alone(at);
+        forget_comparison(at);
         return;
     }
     weight /= all;
     Blend sum = Blend(vec3(0), 0.0, 0.0);
     for (int corner = 0; corner < 4; ++corner)
         if (weight[corner] > 0.0) blend(sum, at + towards_parent(at, level, corner), weight[corner]);
-    if (decision != interpolate_it && all < doubtful_below) sum.variance = -sum.variance;
+    if (all < doubtful_below) sum.variance = -sum.variance;  // a shaded pixel's (src/picture/targets.h)
     show(at, decision, sum);
 }

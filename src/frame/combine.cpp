@@ -42,10 +42,10 @@ Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
     return {1, believed(-own * difference), believed(difference * difference), believed(deviation * deviation)};
 }
 
-// Squared error of interpolation of pixels on one lattice, as means, at most what is seen of them and of those on the next coarser one. Seen
-// are D = N + I and D' = N' + I': the squared deviations, N the noise of either, I the errors of interpolation. Spreads tell of N, but may
-// miss a part; then D - N is too much. Across twice the distance interpolation errs at least twice as much (an edge; 16 times where the
-// picture is smooth), and noise falls as the spreads' does: D' - (N' / N) D >= (2 - N' / N) I.
+// Mean squared error of interpolation of pixels on one lattice, as seen of them and of those on the next coarser one. The mean squared
+// deviations are D = N + I here and D' = N' + I' there, N being noise and I the error of interpolation. Spreads tell of N but may miss a
+// part of it; then D - N is too much. Across twice the distance the squared error of interpolation is at least twice as large (beside an
+// edge; 16 times where the picture is smooth), while noise falls as the spreads do: so D' - (N' / N) D >= (2 - N' / N) I as well.
 double interpolation_of(const Sums& here, const Sums& coarser, double truth) {
     constexpr double least_growth = 2;
     const double most = std::max(here.deviation - truth * here.noise, 0.0) / here.count;
@@ -64,55 +64,61 @@ double best_part(const Sums& here, const Sums& coarser, double truth, uint32_t f
     return all > 0 ? std::clamp(here.own / here.noise * noise / all, 0.0, 1.0) : 0;
 }
 
-// Pixels of one kind in each tile, and all of them: of one lattice, so that they have about as many samples and are interpolated across
-// the same distance; those apart where something speaks against interpolation (doubtful: shaders/lattice.glsl).
+// Sums in each tile, and over all of them, of pixels of one kind: of the finest lattice; of that, where something speaks against
+// interpolation (doubtful: shaders/lattice.glsl); of the next coarser lattice; and all others.
 class Pools {
 public:
+    enum Kind { finest, finest_doubtful, coarser, other, kinds };
+
     Pools(const RoundPixels& pixels, const Tiles& tiles, uint32_t width, uint32_t coarsest, double mean)
-        : pixels_(pixels), tiles_(tiles), width_(width), coarsest_(coarsest), mean_(mean), of_kind_(kinds()), of_tile_(tiles.count * kinds()) {
+        : pixels_(pixels), tiles_(tiles), width_(width), coarsest_(coarsest), mean_(mean), of_all_(kinds), of_tile_(tiles.count * kinds) {
         for (size_t i = 0; i < pixels.material.size(); ++i) {
             if (!is_comparable(pixels, i)) continue;
             const Sums own = sums_of(pixels, i, mean);
-            of_kind_[kind_of(i)].add(own, 1);
-            of_tile_[tiles.of[i] * kinds() + kind_of(i)].add(own, 1);
+            of_all_[kind_of(i)].add(own, 1);
+            of_tile_[tiles.of[i] * kinds + kind_of(i)].add(own, 1);
         }
     }
 
-    // Of the pixels beside that one, without it.
+    Kind kind_of(size_t at) const {
+        const bool doubtful = pixels_.spread[4 * at + 3] < 0;
+        switch (lattice_level(uint32_t(at % width_), uint32_t(at / width_), coarsest_)) {
+            case 0: return doubtful ? finest_doubtful : finest;
+            case 1: return doubtful ? other : coarser;
+            default: return other;
+        }
+    }
+
+    // Of the pixels of its kind around that one, without it.
     Sums around(size_t at) const {
-        const size_t kind = kind_of(at);
-        Sums result = of_tile_[tiles_.of[at] * kinds() + kind];
-        const double prior = prior_pixels / of_kind_[kind].count;
-        result.add(of_kind_[kind], prior);
+        const Kind kind = kind_of(at);
+        Sums result = of_tile_[tiles_.of[at] * kinds + kind];
+        const double prior = prior_pixels / of_all_[kind].count;
+        result.add(of_all_[kind], prior);
         result.add(sums_of(pixels_, at, mean_), -1 - prior);
         return result;
     }
 
-    // The same on the next coarser lattice. Pixels that are rare there err by as much more or less than the frame's as those around do.
-    Sums around_on_coarser(size_t at, const Sums& around) const {
-        const size_t kind = kind_of(at), coarser = kind + 2;
-        if (coarser >= kinds() || !(of_kind_[coarser].count > 0) || !(of_kind_[kind].deviation > 0)) return {};
-        Sums prior = of_kind_[coarser];
-        const double scale = around.deviation / around.count / (of_kind_[kind].deviation / of_kind_[kind].count);
+    // Those of the coarser lattice around one of the finest. They are few in a tile: it is taken to err by as much more or less than the
+    // frame as it does on the finest lattice.
+    Sums coarser_around(size_t at, const Sums& around) const {
+        const Sums &of_coarser = of_all_[coarser], &of_finest = of_all_[finest];
+        if (!(of_coarser.count > 0) || !(of_finest.deviation > 0)) return {};
+        Sums prior = of_coarser;
+        const double scale = around.deviation / around.count / (of_finest.deviation / of_finest.count);
         prior.noise *= scale;
         prior.deviation *= scale;
-        Sums result = of_tile_[tiles_.of[at] * kinds() + coarser];
+        Sums result = of_tile_[tiles_.of[at] * kinds + coarser];
         result.add(prior, prior_pixels / prior.count);
         return result;
     }
 
 private:
-    size_t kinds() const { return 2 * (size_t(coarsest_) + 1); }
-    size_t kind_of(size_t at) const {
-        const bool doubtful = pixels_.spread[4 * at + 3] < 0;
-        return 2 * size_t(lattice_level(uint32_t(at % width_), uint32_t(at / width_), coarsest_)) + doubtful;
-    }
-
     const RoundPixels& pixels_;
     const Tiles& tiles_;
     const uint32_t width_, coarsest_;
     const double mean_;
-    std::vector<Sums> of_kind_, of_tile_;
+    std::vector<Sums> of_all_, of_tile_;
 };
 
 }  // namespace
@@ -127,8 +133,10 @@ std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const Audit& aud
     std::vector<uint8_t> parts(pixels.material.size());
     for (size_t i = 0; i < parts.size(); ++i) {
         if (!is_comparable(pixels, i)) continue;
-        const Sums around = pools.around(i);
-        parts[i] = uint8_t(std::lround(255 * best_part(around, pools.around_on_coarser(i, around), truth, frames)));
+        const Pools::Kind kind = pools.kind_of(i);
+        if (kind != Pools::finest && kind != Pools::finest_doubtful) continue;
+        const Sums around = pools.around(i), coarser = kind == Pools::finest ? pools.coarser_around(i, around) : Sums();
+        parts[i] = uint8_t(std::lround(255 * best_part(around, coarser, truth, frames)));
     }
     return parts;
 }

@@ -28,7 +28,7 @@ void run(gl::Device& device, const Settings& settings, const SlotTable& slot_of,
         return;
     }
     bind_image(gl, 1, prediction.pyramids->weights, GL_RGBA16);
-    for (uint32_t level = settings.coarsest_level(); level-- > 0;) {
+    for (uint32_t level = combined ? 1 : settings.coarsest_level(); level-- > 0;) {
         program.set("level", int32_t(level));
         dispatch_covered(gl, program, covered, covered.levels[level]);
     }
@@ -48,8 +48,8 @@ void combine(gl::Device& device, const Settings& settings, const SlotTable& slot
     const gl::Texture parts = gl::Texture::image(gl, GL_R8UI, width, height);
     parts.upload(width, height, GL_RED_INTEGER, GL_UNSIGNED_BYTE, neighbour_parts.data());
     bind_texture(gl, 7, parts);
-    // Lattices are written from coarse to fine, so that every pixel finds its parents finished. Over directions, a pixel's neighbours may
-    // be written at the same time: all are interpolated from what was there before.
+    // In the image, pixels of the finest lattice alone are written, of which none is another's parent. Over directions, a pixel's neighbours
+    // may be written at the same time: all are interpolated from what was there before.
     gl::Texture before;
     if (prediction.mirrors) {
         before = gl::Texture::image(gl, GL_RGBA32F, width, height);

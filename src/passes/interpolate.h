@@ -15,8 +15,8 @@ namespace lightband::passes {
 void interpolate(gl::Device& device, const Settings& settings, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer,
                  const Prediction& prediction, const Shading& target);
 
-// Afterwards, and once: makes shaded pixels show a mean of their own values and the interpolated ones. neighbour_parts: of the latter in
-// it, in 255ths, for each pixel of the picture (frame/combine.h). In the image, interpolated pixels follow.
+// Afterwards, and once: makes shaded pixels show a mean of their own values and the interpolated ones; in the image, pixels of the finest
+// lattice alone. neighbour_parts: of the interpolated value, in 255ths, for each pixel of the picture (frame/combine.h).
 void combine(gl::Device& device, const Settings& settings, const SlotTable& slot_of, const Covered& covered, const GBuffer& gbuffer,
              const Prediction& prediction, const std::vector<uint8_t>& neighbour_parts, uint32_t width, const Shading& target);
 

@@ -76,8 +76,9 @@ struct Prediction {
 
 struct Shading {
     gl::Texture radiance;      // RGBA32F: RGB; where shaded: mean of squared luminance, where interpolated: variance of the mean
-    gl::Texture spread;        // RGBA32F: half the difference of two replicates' luminances; at a witness, of the interpolated value:
-                               // its deviation, how much its spread differs, its variance
+    gl::Texture spread;        // RGBA32F: half the difference of two replicates' luminances; where a shaded pixel was compared with
+                               // interpolation, of the interpolated value: its deviation, how much its spread differs, its variance
+                               // (negative: something speaks against interpolation there, shaders/lattice.glsl)
     gl::Texture sample_count;  // R32UI
     gl::Texture decision;      // R8UI: shaders/decision.glsl
 
