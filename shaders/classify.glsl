@@ -73,32 +73,24 @@ void around_lattice_point(ivec2 at, int level, out int least, inout float varian
     least = int(low);
 }
 
-// Of the tolerance: pilots that contradict interpolation by more than that know of an edge, not only of their own noise.
-const float most_contradiction = 4.0;
-
-// The weights of the parents of a pixel, where there are enough of them, evenly around it; else 0. Their sum is 1; it is `doubtful` where the
-// pixel's own bandwidth, the pilots, a silhouette or a lamp's horizon speak against interpolation. sound: nothing does, nor does any parent (those at
-// the far edges lie outside the blocks around the pixel) need a finer spacing than this: it may be interpolated.
+// The weights of the parents of a pixel, where there are enough of them, evenly around it; else 0. sound: it may be interpolated from them.
+// None of them (those at the far edges lie outside the blocks around the pixel) nor it asks for a finer spacing than theirs, none lies
+// beyond a lamp's horizon, and the pilots do not contradict it. Else their sum is `doubtful`, not 1.
 vec4 weights_of_parents(ivec2 at, int level, float pixel_level, out bool sound) {
     Parents parents = parents_of(at, level, pixel_level);
-    sound = parents.balanced;
-    if (!sound) return vec4(0);
+    sound = false;
+    if (!parents.balanced) return vec4(0);
+    sound = int(pixel_level) > level;
     float between = 0.0;
-    bool doubted = int(pixel_level) <= level, incomplete = false;
     vec3 normal = surface_at(at).normal;
     for (int corner = 0; corner < 4; ++corner) {
-        if (parents.weight[corner] <= 0.0) {
-            incomplete = incomplete || !is_repeated(at, level, corner);
-            continue;
-        }
+        if (parents.weight[corner] <= 0.0) continue;
         sound = sound && int(imageLoad(levels, parents.at[corner]).r) > level;
+        sound = sound && !parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
         between += parents.weight[corner] * expected_at(parents.at[corner]);
-        doubted = doubted || parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
     }
-    float contradicted = abs(contradiction(expected_at(at), between));
-    sound = sound && !doubted && contradicted <= tolerance;
-    doubted = doubted || incomplete || contradicted > most_contradiction * tolerance;
-    return (doubted ? doubtful : 1.0) * vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]);
+    sound = sound && abs(contradiction(expected_at(at), between)) <= tolerance;
+    return (sound ? 1.0 : doubtful) * vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]);
 }
 
 #endif
