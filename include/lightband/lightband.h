@@ -419,7 +419,8 @@ typedef struct lb_buffer_view {
  *   level               uint8   [H][W]     log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)
  *   cell_level          uint8   [H][W]     log2 of the cells along a side of the square of mirror directions that the
  *                                          pixel asks for; 15: finer than there are
- *   shaded              uint8   [H][W]     1: the integral was computed here; 0: interpolated or nothing seen
+ *   shaded              uint8   [H][W]     1: the integral was computed here, and what is shown may be a mean of it and of what is
+ *                                          interpolated here, each weighted by its error; 0: interpolated or nothing seen
  *   sample_count        uint32  [H][W]     light samples drawn here, by one of the frames that are accumulated
  *   error               float32 [H][W]     error of the luminance L that is expected here, over L + 0.01 of the frame's mean L;
  *                                          its root mean square over the covered pixels is lb_frame_stats.error
