@@ -140,8 +140,12 @@ void main() {
     // that are saturated tell of creases.
     bool sound = false;
     vec4 weight = level < coarsest_level && texelFetch(bandwidth, at, 0).b < saturated ? weights_of_parents(at, level, float(own), sound) : vec4(0);
+    if (sound && least <= level) {
+        sound = false;  // shaded since a pixel near it needs a finer spacing
+        weight *= doubtful;
+    }
     imageStore(weights, at, weight);
-    interpolate = sound && least > level && (chosen || !former);
+    interpolate = sound && (chosen || !former);
 #elif defined(INTERPOLATE_DIRECTIONS)
     uint word = texelFetch(cells, at, 0).r, slot = texelFetch(brdf_of, int(material)).r;
     if (level_of(word) != too_fine) {

@@ -20,18 +20,20 @@ def metal_sphere(context):
 
 
 def outliers(frame):
-    """The part of the inner pixels that differ from the median of their eight neighbours by more than three times the frame's error."""
+    """How many of how many inner pixels differ from the median of their eight neighbours by more than three times the frame's error."""
     shown, inner = frame.color[..., :3] @ LUMINANCE, frame.material > 0
     for shift in SHIFTS:
         inner = inner & np.roll(frame.material > 0, shift, (0, 1))
     median = np.median([np.roll(shown, shift, (0, 1)) for shift in SHIFTS], axis=0)
-    return np.mean(np.abs(shown[inner] / median[inner] - 1) > 3 * frame.stats.error)
+    return np.sum(np.abs(shown[inner] / median[inner] - 1) > 3 * frame.stats.error), inner.sum()
 
 
 @pytest.mark.parametrize("asked", [0.05, 0.03])
 def test_no_pixel_stands_out(context, metal_sphere, asked):
-    """Normal noise leaves 2.7 in 1,000 beyond three standard deviations; with its shaded pixels alone this scene had 5.2 and 6.8."""
+    """Normal noise leaves 2.7 in 1,000 beyond three standard deviations, give or take the root of their number; with its shaded pixels
+    alone this scene had 5.2 and 6.8."""
     frame = context.frame(SIDE, SIDE, target_error=asked)
     frame.render(metal_sphere)
     assert frame.stats.shaded_pixels < 0.5 * frame.stats.covered_pixels  # or nothing is tested
-    assert outliers(frame) <= 3e-3
+    many, inner = outliers(frame)
+    assert many <= 2.7e-3 * inner + 3 * np.sqrt(2.7e-3 * inner)

@@ -85,9 +85,12 @@ void a_pixel_does_not_choose_its_own_part(void**) {
     const size_t at = 33 * side + 17;
     const uint8_t before = picture.parts()[at];
     picture.pixels.spread[4 * at] *= -3;
-    picture.pixels.spread[4 * at + 1] = 0.2f;
+    picture.pixels.spread[4 * at + 1] *= -1;
     picture.pixels.spread[4 * at + 2] *= 5;
     assert_int_equal(picture.parts()[at], before);
+    // But where it differs by more than noise, there is an edge, and it keeps its own value.
+    picture.pixels.spread[4 * at + 1] = 1;
+    assert_int_equal(picture.parts()[at], 0);
 }
 
 // The estimate is of what is shown: over 3,072 pixels a mean square is known to sqrt(2 / 3072) = 2.6 %, so two of them agree within four
