@@ -370,11 +370,10 @@ typedef struct lb_frame_stats {
                                       samples lessen it */
     uint32_t sampler_replaced;     /* 1: samples without bias contradicted the sampler "cut", as under tables with black parts; the
                                       picture was drawn by "combined" or "brdf" instead. lb_frame_explain says by which. Else 0 */
-    uint32_t reserved;             /* 0 */
 } lb_frame_stats;
 
 #define LB_FRAME_STATS_INIT \
-    { sizeof(lb_frame_stats), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0, 0.0, 0, 0 }
+    { sizeof(lb_frame_stats), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0, 0.0, 0 }
 
 /* LB_ERROR_INVALID_STATE before the first successful render. */
 LB_API lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats);

@@ -189,16 +189,19 @@ Recheck Frame::recheck(Job* job, double mean_radiance) const {
     return result;
 }
 
-// What a frame may err by to one side before its error shows it.
+// What a frame may err by to one side before its error shows it. Where no error is asked for, the pilots' own error counts: by their
+// spreads, or, where all pixels err alike, by how far they are from the validation.
 double Frame::harmless_difference(const Job& job, double mean_radiance) const {
     double error = settings.target_error();
     if (!(error > 0)) {
-        double squares = 0;
-        for (const Audit::Pixel& pixel : job.pilots) {
-            const double scale = scale_of(pixel, mean_radiance);
-            if (scale > 0) squares += std::pow(std::min(pixel.spread / scale, 1.0), 2);
+        double spreads = 0, differences = 0;
+        for (size_t k = 0; k < job.pilots.size(); ++k) {
+            const double scale = scale_of(job.audit.pixels[k], mean_radiance);
+            if (!(scale > 0)) continue;
+            spreads += std::pow(std::min(double(job.pilots[k].spread) / scale, 1.0), 2);
+            differences += std::pow(std::min(std::abs(double(job.pilots[k].mean - job.audit.pixels[k].mean)) / scale, 1.0), 2);
         }
-        error = std::sqrt(squares / std::max(double(job.pilots.size()), 1.0));
+        error = std::sqrt(std::max(spreads, differences) / std::max(double(job.pilots.size()), 1.0));
     }
     return std::max(Audit::harmless_part * error, Audit::least_difference);
 }

@@ -150,7 +150,7 @@ def test_only_what_is_needed(context, patched):
     """Cells and foresight belong to interpolation over directions, pyramids to that in the image; a small frame looks for neither."""
     things = [("knot", context.ggx(0.4, 0.9), (0, 0, 0))]
     frame = shown(context, patched, things, samples=16)
-    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "probe", "doubt", "foresee", "cells", "classify",
+    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "probe", "recheck", "foresee", "cells", "classify",
                              "list", "shade", "interpolate", "estimate"]
     assert "foresee" not in passes(shown(context, patched, things, samples=16, bandwidth_scale=1))
     small = shown(context, patched, things, samples=16, interpolation="auto")

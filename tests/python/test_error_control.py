@@ -149,7 +149,10 @@ def test_tiny_frames_know_their_bias(context, size):
     frame.render(scene)
     true = np.sqrt(np.mean(((luminance(frame) - 0.5) / 0.505) ** 2))
     assert frame.stats.audited_pixels == size * size
-    assert true > 0.005 and true / 1.6 < frame.stats.error < 1.6 * true
+    if frame.stats.sampler_replaced:  # samples without bias have no error here, and the frame found out
+        assert true < 1e-5 < frame.stats.error
+    else:
+        assert true > 0.005 and true / 1.6 < frame.stats.error < 1.6 * true
 
 
 def test_a_black_frame_has_no_error(context):
@@ -177,7 +180,7 @@ def test_progress_of_rounds_never_goes_back(context, scene):
     frame.render(scene, progress=seen.append)
     assert seen == sorted(seen) and seen[0] == 0 and seen[-1] == 1
     with pytest.raises(lightband.Cancelled):
-        frame.render(scene, progress=lambda fraction: fraction > 0)
+        frame.render(scene, progress=lambda fraction: lightband.CANCEL if fraction > 0 else None)
 
 
 def test_progress_moves_while_a_frame_is_shaded(context, scene):

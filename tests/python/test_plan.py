@@ -28,14 +28,14 @@ def passes(frame):
 
 def test_an_adaptive_frame(context, sphere):
     frame = rendered(context, sphere, samples=16)
-    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "probe", "doubt", "pyramids", "classify", "list",
-                             "shade", "upsample", "estimate"]
+    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "probe", "recheck", "pyramids", "classify", "list",
+                             "shade", "upsample", "estimate", "combine"]
     assert frame.stats.rounds == 1
 
 
 def test_without_bias_nothing_is_audited(context, sphere):
     frame = rendered(context, sphere, samples=16, sampler="combined")
-    assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate"]
+    assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate", "combine"]
     assert frame.stats.audited_pixels == 0 and frame.stats.bias_error == 0
 
 
@@ -65,7 +65,7 @@ def test_rounds_repeat_passes_and_add_none(context, sphere):
     assert frame.stats.rounds == 2
     once = passes(rendered(context, sphere, samples=16))
     # Where time is short there is none for a probe; where it is plenty, every pixel is shaded.
-    spared = {"probe", "doubt"} | ({"upsample"} if frame.stats.shaded_pixels == frame.stats.covered_pixels else set())
+    spared = {"probe"} | ({"upsample", "combine"} if frame.stats.shaded_pixels == frame.stats.covered_pixels else set())
     assert passes(frame) == [name for name in once if name not in spared]
     assert passes(rendered(context, sphere, target_error=0.1)) == once
 

@@ -60,7 +60,7 @@ def looked_up(texels: npt.NDArray[np.float32], directions: Floats) -> Floats:
 def reflected(values: npt.NDArray[np.float32], texels: npt.NDArray[np.float32], theta: float) -> float:
     """Radiance of a plane that faces +Z, seen at an angle of theta in the plane of X and Z: midpoints over the half vector h, sixteen to a
     cell of theta_half; d(wi) = 4 (h . wo) d(h)."""
-    steps, turns = 1440, 720
+    steps, turns = 1440, 360
     wo = np.array([np.sin(theta), 0, np.cos(theta)])
     x = ((np.arange(steps) + 0.5) / steps)[:, None]
     half = x**2 * np.pi / 2
@@ -81,21 +81,20 @@ def reflected(values: npt.NDArray[np.float32], texels: npt.NDArray[np.float32], 
 
 
 @seed(20130501)
-@settings(max_examples=8, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=5, deadline=None, database=None, suppress_health_check=list(HealthCheck))
 @given(tables(), maps(), st.floats(0.05, 1.4))
 def test_what_is_asked_of_sparse_tables_is_got(
     context: lightband.Context, values: npt.NDArray[np.float32], texels: npt.NDArray[np.float32], theta: float
 ) -> None:
-    """The quadrature itself errs by a sixteenth of a cell at each edge: half a percent of a ring of two cells."""
-    # A plane is seen under one angle from far away. Its frame must hold the error that the frame was asked for, and one and a half times as
-    # much where the check above adds its own.
+    """A plane seen from so far away that all pixels see it under one angle, to 1e-4. The quadrature itself errs by up to a sixteenth of a
+    cell at each edge, half a percent of a ring of one cell: so 1 % that is asked may be 1.5 % that is seen."""
     expected = reflected(values, texels, theta)
     material = context.table_brdf(values)
     scene = context.scene()
     scene.environment = context.environment(texels)
-    scene.camera(eye=(50 * np.sin(theta), 0, 50 * np.cos(theta)), target=(0, 0, 0), fov_y=0.004)
+    scene.camera(eye=(500 * np.sin(theta), 0, 500 * np.cos(theta)), target=(0, 0, 0), fov_y=2e-4)
     scene.add(context.builtin_mesh("plane"), material, np.diag([9, 9, 1, 1]))
-    frame = context.frame(24, 24, target_error=0.01)
+    frame = context.frame(12, 12, target_error=0.01)
     frame.render(scene)
     shown = frame.color[..., :3].astype(float) @ LUMINANCE
     if expected < 1e-6:
