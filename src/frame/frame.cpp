@@ -133,7 +133,9 @@ Forecast Frame::predict(Job* job) const {
         material->pilots(settings.band_rule(), settings.pilots());
         report_preparation(*job);
     }
-    next.plan.finished("environment", "bandwidth of the map and the lobes; once for each", job->scene.light->device_bytes(), 0, "");
+    if (job->covered.all.count > 0) passes::make_tables(job->scene, job->slots, settings, settings.seed());
+    report_preparation(*job);
+    next.plan.finished("environment", "bandwidth of the map and the lobes, tables of the sampler; once for each", job->scene.light->device_bytes(), 0, "");
 
     // Frames that are asked for no error do not know what it would cost; those asked for a time do without what takes some to find out.
     const bool maybe = settings.interpolation() == Interpolation::automatic && settings.target_error() > 0 &&

@@ -68,6 +68,20 @@ void bind_sampler(const gl::Functions& gl, const Light& light, const Material& m
 
 }  // namespace
 
+void make_tables(const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t map_points_seed) {
+    const Light& light = *scene.light;
+    const Lookup lookup = settings.environment_lookup();
+    const Sampler sampler = settings.sampler();
+    if (sampler == Sampler::filtered) light.footprints(lookup, FootprintLight::Kind::whole);
+    if (sampler == Sampler::cut) {
+        light.footprints(lookup, FootprintLight::Kind::below_ceilings);
+        light.above(lookup);
+    }
+    if (sampler == Sampler::combined) light.points(lookup, map_points_seed);
+    if (sampler == Sampler::cut || sampler == Sampler::combined)
+        for (const Material* material : slots.materials) material->bind_importance();
+}
+
 void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
            const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn) {
     const gl::Functions& gl = device.gl();

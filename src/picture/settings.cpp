@@ -73,7 +73,8 @@ const lb_setting_info table[place_count] = {
               "is interpolated over. constant_variance: in proportion to relative variance (section 2.4)."),
     choice_of("sampler", "cut|combined|filtered|brdf", "cut",
               "Where an adaptive frame's samples come from. cut: half look up what the lobe's samples stand for in the map under a soft "
-              "ceiling, half are parts of what exceeds it (docs/decisions/0009); biased, by less the more samples. combined: half from "
+              "ceiling, half are parts of what exceeds it (docs/decisions/0009); biased, by less the more samples, and replaced where samples "
+              "without bias contradict it (docs/decisions/0017). combined: half from "
               "the BRDF, half from the map, by the balance heuristic (Veach 1997); unbiased. filtered: from the BRDF, each looking up "
               "the mean of the map over the directions that it stands for (Krivanek and Colbert 2008); biased likewise. brdf: the "
               "papers'; unbiased. A reference always samples the BRDF."),
