@@ -10,8 +10,9 @@ layout(std140, binding = 0) uniform Trunks { vec4 trunk[2 * (TRUNK_PARTS + COARS
 // parts; among few parts, more than a quarter of all that is expected.
 const float surprising = 16.0, surprising_share = 0.25;
 // Importance is tabulated coarsely: where the table holds 0 at a part's centre, the part may still reach into a bright piece of the lobe.
-// So no part counts less than this times the mean importance over the hemisphere, and with its size every cut becomes fine everywhere.
-const float least_importance = 1.0 / 64.0;
+// So this fraction of the parts is given out as if the lobe were even (Hesterberg 1995, defensive mixture), and with its size every cut
+// becomes fine everywhere.
+const float defensive_fraction = 1.0 / 8.0;
 // Near the horizon, by so much sine or its own width, a part's centre says little: half of the part may lie below, and measured tables
 // vary from cell to cell (a cell of a MERL table is a degree or two wide). There it may bring what the lobe's greatest value would.
 const float grazing = 0.03;
@@ -19,9 +20,8 @@ const float grazing = 0.03;
 // RGB; size: the parts that the cut is to have, about. coarser: the luminance of a cut of half as many.
 vec3 light_above(Pixel pixel, float size, out float coarser) {
     // Halved d times, a part errs 2^-d times as much; errors are least together where d follows the square root of what they are.
-    float wishes[TRUNK_PARTS], sum = 0.0, expected = 0.0;
+    float wishes[TRUNK_PARTS], sum = 0.0, even = 0.0, expected = 0.0;
     uint seen[TRUNK_PARTS], seen_count = 0u;
-    float defensive = least_importance * importance_albedo(pixel.lobe.view) / (2.0 * pi);
     bool coarse = size < float(COARSE_TRUNK_PARTS);
     int first = coarse ? TRUNK_PARTS : 0, last = first + (coarse ? COARSE_TRUNK_PARTS : TRUNK_PARTS);
     for (int k = first; k < last; ++k) {
@@ -29,14 +29,16 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
         vec3 wi = part.xyz * pixel.frame;
         if (may_be_above(wi, part.w)) {
             vec4 flux = trunk[2 * k + 1];
-            float importance = lobe_importance(pixel.lobe.view, middle_above(wi, part.w)), wish = sqrt(flux.w * (importance + defensive));
+            float importance = lobe_importance(pixel.lobe.view, middle_above(wi, part.w)), wish = sqrt(flux.w * importance);
             wishes[seen_count] = wish;
             seen[seen_count++] = uint(k);
             sum += wish;
+            even += sqrt(flux.w);
             expected += luminance(flux.rgb) * importance;
         }
     }
-    float scale = sum > 0.0 ? size / sum : 0.0, too_much = min(surprising / size, surprising_share) * expected;
+    float scale = sum > 0.0 ? (1.0 - defensive_fraction) * size / sum : 0.0, even_scale = even > 0.0 ? defensive_fraction * size / even : 0.0;
+    float too_much = min(surprising / size, surprising_share) * expected;
     vec3 light = vec3(0);
     // One loop over all parts of both cuts, so that neighbours run equally long. place, depth: of a part in its heap; wanted: the
     // depth of the cut there; start: that of the coarser cut.
@@ -46,7 +48,8 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
     while (true) {
         if (place == 2u << start && depth == start) {
             if (k == seen_count) break;
-            wanted = uint(clamp(round(log2(max(scale * wishes[k], 1.0))), 0.0, float(TREE_DEPTH)));
+            float parts = max(scale * wishes[k], even_scale * sqrt(trunk[2 * int(seen[k]) + 1].w));
+            wanted = uint(clamp(round(log2(max(parts, 1.0))), 0.0, float(TREE_DEPTH)));
             start = depth = max(wanted, 1u) - 1u;
             trunk_part = seen[k++];
             place = 1u << start;

@@ -139,8 +139,8 @@ void Frame::look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t 
 }
 
 // Validation pixels to be shaded without bias: a part of them chosen by chance, and those where pilot pass and validation differ most,
-// which are the likeliest to miss light. by_chance: whether each is one of the former.
-std::vector<size_t> Frame::choose_rechecked(const Job& job, double mean_radiance, std::vector<bool>* by_chance) const {
+// which are the likeliest to miss light.
+std::vector<Frame::Rechecked> Frame::choose_rechecked(const Job& job, double mean_radiance) const {
     const std::vector<Audit::Pixel>& validated = job.audit.pixels;
     const size_t count = validated.size(), stride = count <= Audit::fewest_rechecked ? 1 : Audit::recheck_stride;
     std::vector<double> difference(count);
@@ -151,35 +151,33 @@ std::vector<size_t> Frame::choose_rechecked(const Job& job, double mean_radiance
         by_difference[k] = k;
     }
     std::sort(by_difference.begin(), by_difference.end(), [&](size_t a, size_t b) { return difference[a] > difference[b]; });
-    std::vector<bool> chosen(count);
-    for (size_t i = 0; i < size_t(std::ceil(Audit::doubted_part * double(count))); ++i) chosen[by_difference[i]] = true;
-    std::vector<size_t> order;
+    std::vector<bool> differs(count);
+    for (size_t i = 0; i < size_t(std::ceil(Audit::doubted_part * double(count))); ++i) differs[by_difference[i]] = true;
+    std::vector<Rechecked> chosen;
     for (size_t k = 0; k < count; ++k) {
         const bool regular = k % stride == 0;  // pixels lie in the picture's order: so these are spread over it
-        if (!regular && !chosen[k]) continue;
-        order.push_back(k);
-        by_chance->push_back(regular);
+        if (regular || differs[k]) chosen.push_back({k, regular, differs[k]});
     }
-    return order;
+    return chosen;
 }
 
-// Holds the cut's pixels against samples without bias; where these see more light, they take the place of the validation.
+// Holds the cut's pixels against samples without bias; where pilot pass and validation differ and these see more light, they take the place
+// of the validation.
 Recheck Frame::recheck(Job* job, double mean_radiance) const {
     std::vector<Audit::Pixel>& validated = job->audit.pixels;
-    std::vector<bool> by_chance;
-    const std::vector<size_t> order = choose_rechecked(*job, mean_radiance, &by_chance);
+    const std::vector<Rechecked> chosen = choose_rechecked(*job, mean_radiance);
     std::vector<uint32_t> pixels;
-    for (const size_t k : order) pixels.push_back(validated[k].at);
+    for (const Rechecked& one : chosen) pixels.push_back(validated[one.place].at);
     job->unbiased_samples = Audit::unbiased_samples(job->audit.samples / Audit::gain);
     const std::vector<Audit::Pixel> seen = shade_alike(*job, pixels, with_sampler("combined"), job->unbiased_samples, audit_seed);
     std::vector<RecheckedPixel> rechecked;
-    for (size_t i = 0; i < order.size(); ++i) {
-        Audit::Pixel& cut = validated[order[i]];
+    for (size_t i = 0; i < chosen.size(); ++i) {
+        Audit::Pixel& cut = validated[chosen[i].place];
         const double scale = 0.5 * (scale_of(seen[i], mean_radiance) + scale_of(cut, mean_radiance));
-        const double few = job->pilots.empty() ? double(cut.mean) : double(job->pilots[order[i]].mean);
-        if (by_chance[i] && cut.biased && scale > 0)
+        const double few = job->pilots.empty() ? double(cut.mean) : double(job->pilots[chosen[i].place].mean);
+        if (chosen[i].by_chance && cut.biased && scale > 0)
             rechecked.push_back({few / scale, cut.mean / scale, seen[i].mean / scale, seen[i].spread / scale, seen[i].deviation / scale});
-        if (Audit::refutes(seen[i], cut)) cut = seen[i];
+        if (chosen[i].differs && Audit::refutes(seen[i], cut)) cut = seen[i];
     }
     const double few_samples = job->pilots.empty() ? job->audit.samples / Audit::gain : job->pilot_samples;
     const Recheck result = lightband::recheck(rechecked, {few_samples, double(job->audit.samples), double(job->unbiased_samples)});

@@ -81,7 +81,12 @@ private:
     double rehearsed(const Job& job, double mean_radiance) const;
     double probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const;
     void look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const;
-    std::vector<size_t> choose_rechecked(const Job& job, double mean_radiance, std::vector<bool>* by_chance) const;
+    // A validation pixel that is to be rechecked: chosen by chance; and one where pilot pass and validation differ.
+    struct Rechecked {
+        size_t place;
+        bool by_chance, differs;
+    };
+    std::vector<Rechecked> choose_rechecked(const Job& job, double mean_radiance) const;
     Recheck recheck(Job* job, double mean_radiance) const;
     double harmless_difference(const Job& job, double mean_radiance) const;
     void replace_sampler(Job* job, double mean_radiance) const;

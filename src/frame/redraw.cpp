@@ -82,9 +82,7 @@ Redraw redraw(const RoundPixels& pixels, const std::vector<float>& areas, double
         if (allocation == Allocation::constant_variance) {
             pixel.deserved = pixel.samples * std::pow(pixel.noise, 1 / stratified_gain);
         } else {
-            // Others are interpolated from its own value; it shows a part of that.
-            const double own = 1 - neighbour_part(pixels, pixel.at), others = areas.empty() ? 0 : double(areas[pixel.at]) - 1;
-            pixel.noise *= others + own * own;
+            if (!areas.empty()) pixel.noise *= double(areas[pixel.at]);
             pixel.deserved = pixel.samples * std::pow(pixel.noise / pixel.samples, 1 / (1 + stratified_gain));
         }
         deserved += pixel.deserved;

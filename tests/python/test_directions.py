@@ -151,7 +151,7 @@ def test_only_what_is_needed(context, patched):
     things = [("knot", context.ggx(0.4, 0.9), (0, 0, 0))]
     frame = shown(context, patched, things, samples=16)
     assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "probe", "recheck", "foresee", "cells", "classify",
-                             "list", "shade", "interpolate", "estimate"]
+                             "list", "shade", "interpolate", "estimate", "combine"]
     assert "foresee" not in passes(shown(context, patched, things, samples=16, bandwidth_scale=1))
     small = shown(context, patched, things, samples=16, interpolation="auto")
     assert not {"foresee", "cells", "interpolate"} & set(passes(small)) and (small.cell_level == 0).all()
