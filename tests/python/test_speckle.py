@@ -28,10 +28,10 @@ def outliers(frame):
     return np.sum(np.abs(shown[inner] / median[inner] - 1) > 3 * frame.stats.error), inner.sum()
 
 
-@pytest.mark.parametrize("asked", [0.05, 0.03])
+@pytest.mark.parametrize("asked", [0.06, 0.05])
 def test_no_pixel_stands_out(context, metal_sphere, asked):
     """Normal noise leaves 2.7 in 1,000 beyond three standard deviations, give or take the root of their number; with its shaded pixels
-    alone this scene had 5.2 and 6.8."""
+    alone this scene had 4.5 and 8.9."""
     frame = context.frame(SIDE, SIDE, target_error=asked)
     frame.render(metal_sphere)
     assert frame.stats.shaded_pixels < 0.5 * frame.stats.covered_pixels  # or nothing is tested
