@@ -13,7 +13,7 @@ constexpr double prior_pixels = 8;
 
 // A pixel that differs from the interpolated value by more standard deviations of the noise around it is an edge, and keeps its own value;
 // sooner where something speaks against interpolation. Chosen by bench/speckle.py: with 3 for both, the error of the blob at 5 % was
-// 1.1 times what it is without combining; with 2.5 for both, 3.8 pixels in 1,000 of the sphere at 2 % stand out, with these 2.1.
+// 1.1 times what it is without combining; with 2.5 for both, 3.8 pixels in 1,000 of the sphere at 2 % stand out, with these 2.7.
 constexpr double sure_deviations = 4, sure_deviations_doubtful = 2.6;
 
 // Sums over comparable pixels of squares relative to their scales. With own value y, spread s, and interpolated value z, spread t:
@@ -36,15 +36,15 @@ bool is_comparable(const RoundPixels& pixels, size_t at) {
     return pixels.material[at] != 0 && is_shaded(pixels.decision[at]) && pixels.spread[4 * at + 3] != 0;
 }
 
-// A square is believed up to 1, as those of audits and witnesses are.
-double believed(double square) { return std::clamp(square, -AuditSum::largest_square, AuditSum::largest_square); }
+// A squared error counts up to 1, as those of audited and of validation pixels do.
+double clamped_square(double square) { return std::clamp(square, -AuditSum::largest_square, AuditSum::largest_square); }
 
 Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
     const double scale = scale_of(pixels, at, mean);
     if (!(scale > 0)) return {};
     const float* spread = &pixels.spread[4 * at];
     const double own = spread[0] / scale, deviation = spread[1] / scale, difference = spread[2] / scale;
-    return {1, believed(-own * difference), believed(difference * difference), believed(deviation * deviation)};
+    return {1, clamped_square(-own * difference), clamped_square(difference * difference), clamped_square(deviation * deviation)};
 }
 
 // Mean squared error of interpolation of pixels on one lattice, as seen of them and of those on the next coarser one. The mean squared
