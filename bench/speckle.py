@@ -1,11 +1,14 @@
 """Pixels that stand out of smooth pictures: six scenes of smooth shapes and built-in materials at 10, 5, 2 and 1 %.
 
-usage: speckle.py --data FOLDER --references FOLDER [--pictures FOLDER] > table.csv
+    python bench/speckle.py --data FOLDER --references FOLDER [--pictures FOLDER] > table.csv
 
-`outliers`: inner pixels in 1,000 whose difference to the median of their eight neighbours is further than three times the frame's estimated
-error from what it is in the reference; normal noise of one size leaves 2.7. `edges`: error in the tenth of the inner pixels where the
-reference changes most. FLIP: mean of the flip-evaluator package over the picture, exposed so that the reference's 90th percentile is 1/2.
-References (`combined`, every pixel shaded, two of 2,048 samples) are kept in the folder. For two versions, run it once with either package.
+A pixel stands out where it differs from the median of its eight neighbours by more than three times the error that the frame
+estimates. `outliers`: inner pixels in 1,000 that stand out in the frame and not in the reference; `reference`: those that
+stand out in the reference, as the scene itself has edges. Independent normal noise of one size leaves 6 in 1,000: the median
+of eight values has 0.44 of their standard deviation. `edges`: error in the tenth of the inner pixels where the reference
+changes most. `flip`: mean of the flip-evaluator package over the picture, exposed so that the reference's 90th percentile is
+1/2. References (`combined`, every pixel shaded, two of 2,048 samples) are kept in the folder. To compare two versions, run it
+once with either package.
 """
 from __future__ import annotations
 
@@ -14,6 +17,7 @@ from pathlib import Path
 
 import flip_evaluator
 import numpy as np
+from measure import luminance, relative_error
 from PIL import Image
 from scenes import CAMERA, MAPS, MESHES, mesh_arrays
 
@@ -22,17 +26,17 @@ import lightband
 SCENES = [("sphere", "rough-gold", "studio"), ("torus", "rough-nickel", "forest"), ("blob", "interference-paint", "courtyard"),
           ("knot", "rough-gold", "grace"), ("bunny", "rough-nickel", "city"), ("buddha", "interference-paint", "sunset")]
 SIDE, SEEDS = 256, (1, 2, 3)
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 SHIFTS = [(dy, dx) for dy in (-1, 0, 1) for dx in (-1, 0, 1) if dy or dx]
 CROP, ENLARGED = slice(80, 176), 4
 
 
-def beside_median(picture: np.ndarray) -> np.ndarray:
-    return picture - np.median([np.roll(picture, shift, (0, 1)) for shift in SHIFTS], axis=0)
+def stands_out(picture: np.ndarray, error: float) -> np.ndarray:
+    median = np.median([np.roll(picture, shift, (0, 1)) for shift in SHIFTS], axis=0)
+    return np.abs(picture - median) > 3 * error * median
 
 
 def shown(color: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    exposed = np.clip(0.5 * color / np.percentile(reference @ LUMINANCE, 90), 0, 1)
+    exposed = np.clip(0.5 * color / np.percentile(luminance(reference), 90), 0, 1)
     return np.where(exposed < 0.0031308, 12.92 * exposed, 1.055 * exposed ** (1 / 2.4) - 0.055).astype(np.float32)  # sRGB
 
 
@@ -48,20 +52,20 @@ def references(context: lightband.Context, scene: lightband.Scene, file: Path) -
 
 
 def row(frame: lightband.Frame, pair: list[np.ndarray]) -> list[float]:
-    """Error, of edges, outliers in 1,000, FLIP."""
+    """Error, of edges; outliers, those of the reference, in 1,000; FLIP."""
     covered = inner = frame.material > 0
     for shift in SHIFTS:
-        inner = inner & np.roll(covered, shift, (0, 1))
-    reference, picture = (pair[0] + pair[1]) / 2, frame.color[..., :3] @ LUMINANCE
-    a, b = (one @ LUMINANCE for one in pair)
-    scale = reference @ LUMINANCE + 0.01 * (reference @ LUMINANCE)[covered].mean()
-    squares = (picture - a) * (picture - b) / scale**2  # docs/measurements.md: the references' noise cancels
-    change = np.hypot(*np.gradient(np.log(np.maximum(scale, 1e-9))))
+        inner = inner & np.roll(covered, shift, (0, 1)) & np.roll(covered, 2 * np.array(shift), (0, 1))
+    colour = (pair[0] + pair[1]) / 2
+    picture, reference, a, b = (luminance(one) for one in (frame.color, colour, *pair))
+    change = np.hypot(*np.gradient(np.log(reference + 0.01 * reference[covered].mean())))
     edges = inner & (change > np.percentile(change[inner], 90))
-    out = np.abs(beside_median(picture) - beside_median(reference @ LUMINANCE)) / scale > 3 * frame.stats.error
-    flip = flip_evaluator.evaluate(shown(reference * covered[..., None], reference), shown(frame.color[..., :3] * covered[..., None],
-                                   reference), "LDR")[1]
-    return [np.sqrt(max(squares[covered].mean(), 0)), np.sqrt(max(squares[edges].mean(), 0)), 1e3 * out[inner].mean(), flip]
+    there = stands_out(reference, frame.stats.error)
+    out = stands_out(picture, frame.stats.error) & ~there
+    flip = flip_evaluator.evaluate(shown(colour * covered[..., None], colour), shown(frame.color[..., :3] * covered[..., None], colour),
+                                   "LDR")[1]
+    return [relative_error(picture, a, b, covered), relative_error(picture, a, b, edges), 1e3 * out[inner].mean(),
+            1e3 * there[inner].mean(), flip]
 
 
 def main() -> None:
@@ -71,7 +75,7 @@ def main() -> None:
     parser.add_argument("--pictures", type=Path)
     arguments = parser.parse_args()
     context = lightband.Context(device="any")
-    print("mesh,material,map,asked,estimated,got,edges,outliers,flip,milliseconds")
+    print("mesh,material,map,asked,estimated,got,edges,outliers,reference,flip,milliseconds")
     for mesh, material, light in SCENES:
         scene = context.scene()
         scene.environment = context.load_environment(arguments.data / "env" / MAPS[light])
