@@ -33,7 +33,7 @@ ASKED_SEEDS = (7, 8, 9)  # of frames with a target error: which pixels are looke
 REFERENCE_SEEDS = (100_001, 200_002)
 SAME_NORMAL = 1e-4  # builds and drivers round otherwise, by some 1e-7; a pixel that sees another triangle differs by far more
 # Operator, variance, allocation and samples as printed.
-PAPERS = {"interpolation": "image", "transport": "box", "allocation": "constant_variance", "variance": "printed", "sampler": "brdf",
+PAPERS = {"transport": "box", "allocation": "constant_variance", "variance": "printed", "sampler": "brdf",
           "sequence": "random"}
 
 

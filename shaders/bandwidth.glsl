@@ -13,9 +13,6 @@ layout(binding = 5) uniform usamplerBuffer brdf_of;  // instance number + 1 -> B
 
 layout(binding = 0, rgba32f) writeonly uniform image2D bandwidth;   // spatial, angular, image, curvature
 layout(binding = 1, rg32f) writeonly uniform image2D prediction;    // variance of one sample, mean radiance (luminance)
-#if defined(OVER_DIRECTIONS)
-layout(binding = 2, r32f) writeonly uniform image2D reflected;      // cycles per radian of the mirror direction
-#endif
 
 uniform int pilot_count;
 uniform float radians_per_pixel;
@@ -85,7 +82,7 @@ void main() {
     int first = (int(texelFetch(brdf_of, int(material)).r) * LOBE_VIEWS + view_of(cos_outgoing)) * pilot_count;
     float frequency_limit = nyquist / radians_per_pixel;  // cycles/radian at the eye
     vec2 weighted = vec2(0);
-    float weights = 0.0, second = 0.0, printed = 0.0, from_lobe = 0.0, kept = 0.0;
+    float weights = 0.0, second = 0.0, printed = 0.0, from_lobe = 0.0;
     for (int i = 0; i < pilot_count; ++i) {
         vec4 a = texelFetch(pilots, 2 * (first + i)), b = texelFetch(pilots, 2 * (first + i) + 1);
         if (a.w == 0.0) continue;
@@ -102,7 +99,6 @@ void main() {
         vec2 nu = reflected_bandwidth(light_bandwidth, b.y, max(curvature, 0.0), cos_outgoing, distance_to_eye);
         weighted += lambda * vec2(nu.x, min(nu.y, frequency_limit));
         weights += lambda;
-        kept += lambda * min(light_bandwidth, b.y);
         // Mean square of f cos L / density over the footprint. Where the map is sampled too, the lobe's sampler keeps a part; the map's
         // density follows the radiance, and that of the light that matters is its mean square over its mean.
         float light_density = map_density * light.y / light.x;
@@ -136,10 +132,4 @@ void main() {
 #endif
     imageStore(bandwidth, at, vec4(nu, image_bandwidth, max(curvature, 0.0)));
     imageStore(prediction, at, vec4(variance, mean, 0, 0));
-#if defined(OVER_DIRECTIONS)
-    // What the lobe keeps of the light, before the surface's curvature turns it into pixels. Towards grazing angles the lobe itself
-    // changes from direction to direction (docs/decisions/0012); a pixel seen flatter than that is shaded.
-    const float least_cosine = 1e-6;
-    imageStore(reflected, at, vec4(weights > 0.0 ? kept / weights * inversesqrt(max(cos_outgoing, least_cosine)) : 0.0));
-#endif
 }

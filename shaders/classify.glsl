@@ -2,7 +2,7 @@
 #include "common.glsl"
 #include "covered.glsl"
 #include "decision.glsl"
-#if defined(INTERPOLATE_IMAGE)
+#if defined(INTERPOLATE)
 #include "lamps.glsl"
 #include "parents.glsl"
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
@@ -12,11 +12,6 @@ layout(binding = 1, r32f) readonly uniform image2D variances;
 layout(binding = 4, rgba16) writeonly uniform image2D weights;  // of the parents; 0: they say nothing of this pixel
 uniform uint pyramid_rows[PYRAMID_LEVELS];  // where each level starts
 uniform int coarsest_level;
-#elif defined(INTERPOLATE_DIRECTIONS)
-#include "surface.glsl"
-#include "speakers.glsl"
-layout(binding = 2) uniform usampler2D materials;
-layout(binding = 10) uniform usamplerBuffer counts_of_cells;
 #else
 #include "surface.glsl"
 layout(binding = 2) uniform usampler2D materials;
@@ -24,14 +19,11 @@ layout(binding = 2) uniform usampler2D materials;
 layout(binding = 3) uniform usamplerBuffer brdf_of;
 #if defined(PREDICTED)
 const float saturated = 0.5;  // bandwidth, cycles per pixel: no lattice is fine enough
-#if !defined(INTERPOLATE_DIRECTIONS)
 #include "pilots_say.glsl"
-#endif
 layout(binding = 4) uniform sampler2D bandwidth;
 layout(binding = 5) uniform sampler2D prediction;
 #endif
-#if defined(INTERPOLATE_IMAGE) || defined(INTERPOLATE_DIRECTIONS)
-#define INTERPOLATE
+#if defined(INTERPOLATE)
 #include "witnesses.glsl"
 #endif
 #if defined(FURTHER_ROUND)
@@ -51,7 +43,7 @@ void shade(ivec2 at, uint material, int bin, bool former, bool witness) {
     atomicAdd(counts.histogram[(slot * 2u + uint(former)) * BINS + bin], 1u);
 }
 
-#if defined(INTERPOLATE_IMAGE)
+#if defined(INTERPOLATE)
 
 float expected_at(ivec2 at) { return texelFetch(prediction, at, 0).g; }
 
@@ -130,8 +122,6 @@ void main() {
     float variance = relative_variance(texelFetch(prediction, at, 0).rg, mean_radiance), area = 1.0;
 #if defined(INTERPOLATE)
     chosen = is_chosen(at);
-#endif
-#if defined(INTERPOLATE_IMAGE)
     int level = lattice_level(at, coarsest_level), least;
     around_lattice_point(at, level, least, variance);
     uint own = imageLoad(levels, at).r;
@@ -146,14 +136,6 @@ void main() {
     }
     imageStore(weights, at, weight);
     interpolate = sound && (chosen || !former);
-#elif defined(INTERPOLATE_DIRECTIONS)
-    uint word = texelFetch(cells, at, 0).r, slot = texelFetch(brdf_of, int(material)).r;
-    if (level_of(word) != too_fine) {
-        if (speaks(covered_place(), word, slot))
-            area = float(texelFetch(counts_of_cells, cell_index(slot, level_of(word), cell_of(word))).r);
-        else if (chosen || !former)
-            interpolate = abs(contradiction_around(covered_place(), word, slot)) <= tolerance;
-    }
 #endif
     bin = share(variance, area);
 #endif

@@ -1,5 +1,4 @@
-// What listed pixels show, one after the other: radiance, mean of squared luminance; spread, radiance as predicted; normal.
-#include "surface.glsl"
+// What listed pixels show, one after the other: radiance, mean of squared luminance; spread, radiance as predicted.
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform usamplerBuffer entries;  // y << 16 | x
@@ -16,11 +15,10 @@ void main() {
     if (i >= count) return;
     uint entry = texelFetch(entries, int(i)).r;
     ivec2 at = ivec2(entry & 0xffffu, entry >> 16);
-    gathered[3u * i] = texelFetch(radiances, at, 0);
+    gathered[2u * i] = texelFetch(radiances, at, 0);
     float expected = 0.0;
 #if defined(PREDICTED)
     expected = texelFetch(prediction, at, 0).g;
 #endif
-    gathered[3u * i + 1u] = vec4(texelFetch(spreads, at, 0).r, expected, 0, 0);
-    gathered[3u * i + 2u] = vec4(surface_at(at).normal, 0);
+    gathered[2u * i + 1u] = vec4(texelFetch(spreads, at, 0).r, expected, 0, 0);
 }

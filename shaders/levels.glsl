@@ -1,7 +1,6 @@
 // The finest level of the pyramids of section 3.1: what level each covered pixel asks for (eq. 11), and its relative variance.
 #include "covered.glsl"
 #include "relative_variance.glsl"
-#include "shading_level.glsl"
 
 layout(binding = 0) uniform sampler2D prediction;
 layout(binding = 1) uniform sampler2D bandwidth;
@@ -13,6 +12,15 @@ uniform float mean_radiance;  // of the covered pixels
 #endif
 uniform float first_scale;
 uniform int coarsest_level;
+
+// Nyquist: spacing <= 1 / (2 b), src/bandwidth/transport.h. A saturated bandwidth may be any number above what pixels can
+// show, and no scale makes it small. first_scale: before witnesses were heard; where they ask for more, the coarsest spacing becomes as
+// much finer, whatever was predicted: no multiple of nothing would.
+uint shading_level(float b, float scale, float first_scale, int coarsest_level) {
+    if (b >= 0.5) return 0u;
+    float scaled = max(scale * b, 0.5 * (scale / first_scale) * exp2(-float(coarsest_level)));
+    return uint(clamp(floor(log2(0.5 / scaled)), 0.0, float(coarsest_level)));
+}
 
 void main() {
     ivec2 at;

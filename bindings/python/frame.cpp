@@ -29,14 +29,7 @@ constexpr Field fields[] = {
     {"bandwidth_spatial", "float32, height x width: cycles/metre at the surface (first component of eq. 5)."},
     {"bandwidth_angular", "float32, height x width: cycles/radian at the eye (second component of eq. 5)."},
     {"bandwidth_image", "float32, height x width: cycles/pixel, at most 0.5 (eq. 6)."},
-    {"bandwidth_reflected", R"(float32, height x width: cycles/radian of the mirror direction, of the light that the lobe keeps.
-
-Larger towards grazing angles. 0 in a frame that did not interpolate over directions.)"},
     {"level", "uint8, height x width: log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)."},
-    {"cell_level", R"(uint8, height x width: log2 of the cells that the pixel asks for.
-
-They lie along a side of the square of mirror directions; 15 where it asks for finer ones than there are. 0 in a
-frame that did not interpolate over directions.)"},
     {"shaded", "uint8, height x width: 1 where the integral was computed; 0: interpolated, or nothing seen."},
     {"sample_count", "uint32, height x width: light samples drawn, by one of the frames that are accumulated."},
     {"error", R"(float32, height x width: error of the luminance L that is expected here.

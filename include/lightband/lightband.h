@@ -413,11 +413,7 @@ typedef struct lb_buffer_view {
  *   bandwidth_spatial   float32 [H][W]     cycles/metre, at the surface (first component of eq. 5)
  *   bandwidth_angular   float32 [H][W]     cycles/radian, at the eye (second component of eq. 5)
  *   bandwidth_image     float32 [H][W]     cycles/pixel, at most 0.5 (eq. 6)
- *   bandwidth_reflected float32 [H][W]     cycles/radian of the mirror direction, of the light that the lobe keeps; larger
- *                                          towards grazing angles (docs/decisions/0012)
  *   level               uint8   [H][W]     log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)
- *   cell_level          uint8   [H][W]     log2 of the cells along a side of the square of mirror directions that the
- *                                          pixel asks for; 15: finer than there are
  *   shaded              uint8   [H][W]     1: the integral was computed here, and what is shown may be a mean of it and of what is
  *                                          interpolated here, each weighted by its error; 0: interpolated or nothing seen
  *   sample_count        uint32  [H][W]     light samples drawn here, by one of the frames that are accumulated
@@ -431,9 +427,7 @@ typedef struct lb_buffer_view {
  *   variance_pyramid    float32 [R][W]     the relative variances' max pyramid, laid out the same way
  *
  * A frame of method "reference" has no curvature, bandwidth, level, predicted or pyramid field:
- * LB_ERROR_INVALID_STATE. One that did not interpolate over directions (setting "interpolation") holds 0 in
- * bandwidth_reflected and cell_level; levels and pyramids of one that did not interpolate in the image are those of
- * bandwidth_scale 1. */
+ * LB_ERROR_INVALID_STATE. Levels and pyramids of one that did not interpolate are those of bandwidth_scale 1. */
 LB_API lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_buffer_view* view);
 LB_API uint32_t lb_frame_buffer_count(void);
 LB_API const char* lb_frame_buffer_name(uint32_t index);

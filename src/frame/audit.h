@@ -20,7 +20,6 @@ struct Audit {
         uint32_t at;  // y * width + x
         float mean, spread, deviation, expected;
         bool biased;  // whether by the frame's own sampler, which errs as it does, but less
-        float normal[3] = {0, 0, 1};
     };
     std::vector<Pixel> pixels;
     uint32_t samples = 0;  // of those that are biased

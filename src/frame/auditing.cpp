@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "frame/job.h"
-#include "frame/rehearsal.h"
 #include "passes/gather.h"
 
 namespace lightband {
@@ -41,7 +40,7 @@ std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<u
                       job.meter.report(job.meter.left(double(done), all, all / pace_.samples_per_millisecond) + job.expected);
                   });
     const std::vector<passes::Gathered> shown =
-        passes::gather(*device_, list, next.gbuffer, next.shading, next.prediction ? &*next.prediction : nullptr);
+        passes::gather(*device_, list, next.shading, next.prediction ? &*next.prediction : nullptr);
     std::vector<size_t> next_of(of_slot.size());  // slot by slot, as listed
     for (size_t slot = 1; slot < of_slot.size(); ++slot) next_of[slot] = next_of[slot - 1] + of_slot[slot - 1].size();
     std::vector<Audit::Pixel> seen;
@@ -49,8 +48,7 @@ std::vector<Audit::Pixel> Frame::shade_alike(const Job& job, const std::vector<u
         const passes::Gathered& pixel = shown[next_of[slot_of(at)]++];
         const double mean = luminance(Vec3(pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]));
         const double variance = std::max(pixel.square - mean * mean, 0.0) / (samples - 1);
-        seen.push_back({at, float(mean), pixel.spread, float(std::sqrt(variance)), pixel.expected, own.sampler() == Sampler::cut,
-                        {pixel.normal[0], pixel.normal[1], pixel.normal[2]}});
+        seen.push_back({at, float(mean), pixel.spread, float(std::sqrt(variance)), pixel.expected, own.sampler() == Sampler::cut});
     }
     return seen;
 }
@@ -85,19 +83,6 @@ void Frame::plan_from_pilots(const Job& job, Forecast* forecast) const {
     if (job.pilots.empty() || settings.target_error() <= 0) return;
     forecast->probe_samples = job.pilot_samples;
     forecast->probed_error = probed_error(job, job.pilots, *forecast);
-}
-
-// By what the pilots' foresight of interpolation is to be multiplied, squared.
-double Frame::rehearsed(const Job& job, double mean_radiance) const {
-    const Result& next = *job.result;
-    std::vector<RehearsedPixel> pixels;
-    for (const Audit::Pixel& seen : job.audit.pixels) {
-        const Vec3 normal(seen.normal[0], seen.normal[1], seen.normal[2]);
-        const Vec3 wo = -glm::normalize(next.gbuffer.rays.through(double(seen.at % width_), double(seen.at / width_)));
-        pixels.push_back({normal, 2 * glm::dot(normal, wo) * normal - wo, next.slot_of[job.material[seen.at] - 1u], double(seen.mean),
-                          double(seen.expected)});
-    }
-    return rehearse(pixels, dark_part * mean_radiance);
 }
 
 // The mean squared error that a probe's pixels have.
@@ -237,13 +222,11 @@ Settings Frame::with_sampler(const char* sampler) const {
     return other;
 }
 
-// Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost. Of a frame that
-// interpolates over directions most pixels err by interpolation, of which an audit of as many samples tells enough.
+// Where the first round plans more than was thought. In targets that hold nothing yet but decisions, which are lost.
 bool Frame::audit_again(Job* job) const {
     const double planned = job->drawn.samples / std::max(job->drawn.pixels, 1.0);
     if (job->settings.sampler() != Sampler::cut || job->audited == 0 || settings.time_budget() > 0 || planned == 0) return false;
-    const bool over_directions = job->result->prediction->mirrors.has_value();
-    if (over_directions ? job->audit.samples >= planned : job->audit.knows_better(planned)) return false;
+    if (job->audit.knows_better(planned)) return false;
     look_closely(job, draw(*job, job->audited), uint32_t(Audit::gain * planned));
     if (recheck(job, job->result->mean_radiance).contradicts(harmless_difference(*job, job->result->mean_radiance)))
         replace_sampler(job, job->result->mean_radiance);

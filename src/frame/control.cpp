@@ -2,38 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace lightband {
 namespace {
 
-// What is known of a way of interpolation.
-struct Smoothness {
-    // Error of a frame whose levels follow its bandwidth unscaled: as a frame of given samples, which does not measure, takes it to be, and
-    // as one does that asks for an error and corrects itself. It falls with the scale to this power.
-    double unmeasured, expected, power;
-    // A tile's scale grows by the squared error of interpolation over what is allowed to this power.
-    double growth_power;
-    // What the pilots may say against interpolation, relatively, in parts of the error asked for.
-    double tolerance;
-    // A part of the pixels to be witnesses that costs little.
-    double cheap_witnesses;
-    // The part of the allowed noise that a first round plans for.
-    double held_by_first;
-};
-// Measured on scanned meshes the error lies between 0.01 (a matte fabric) and 0.1 (a clear coat under a probe). A frame that corrects
-// itself begins below the lower, since levels can be refined later and never coarsened. For a smooth picture scales would have to grow by
-// the fourth root; near edges, where most of the error comes from, it falls more slowly, and a further round costs more than some pixels
-// too many: the twelve spheres of docs/trade.md took 0.89 of the time at equal error at 2 %, 0.97 at 1 %, that a power of 1/2 and at most
-// 4 times took; a power of 1 as much at 2 % and more at 1 %. What pixels are interpolated from passes its noise on to many: first rounds
+// What is known of interpolation. Error of a frame whose levels follow its bandwidth unscaled: as a frame of given samples, which does not
+// measure, takes it to be, and as one does that asks for an error and corrects itself. It falls with the scale to this power. Measured on
+// scanned meshes the error lies between 0.01 (a matte fabric) and 0.1 (a clear coat under a probe). A frame that corrects itself begins
+// below the lower, since levels can be refined later and never coarsened.
+constexpr double unmeasured_error = 0.08, expected_error = 0.005, error_power = 2;
+// A tile's scale grows by the squared error of interpolation over what is allowed to this power. For a smooth picture scales would have to
+// grow by the fourth root; near edges, where most of the error comes from, it falls more slowly, and a further round costs more than some
+// pixels too many: the twelve spheres of docs/trade.md took 0.89 of the time at equal error at 2 %, 0.97 at 1 %, that a power of 1/2 and
+// at most 4 times took; a power of 1 as much at 2 % and more at 1 %.
+constexpr double growth_power = 0.75;
+// What the pilots may say against interpolation, relatively, in parts of the error asked for.
+constexpr double tolerance_part = 1.2;
+// A part of the pixels to be witnesses that costs little.
+constexpr double cheap_witnesses = 1.0 / 16;
+// The part of the allowed noise that a first round plans for. What pixels are interpolated from passes its noise on to many: first rounds
 // were seen to leave between half and twice of what a probe foretold for them, and a second costs more than some samples.
-constexpr Smoothness in_image{0.08, 0.005, 2, 0.75, 1.2, 1.0 / 16, 0.55};
-// docs/decisions/0012.
-constexpr Smoothness over_directions{0.06, 0.04, 0.75, 1.1, 2.5, 1.0 / 40, 0.8};
-const Smoothness& smoothness_of(const Settings& settings) {
-    return settings.interpolation() == Interpolation::directions ? over_directions : in_image;
-}
+constexpr double held_by_first = 0.55;
 
 // The least that pilots may say against interpolation is what they disagree about among themselves, from view to view; the most is for
 // frames that ask for no error.
@@ -52,18 +42,6 @@ constexpr uint32_t most_rounds = 8;
 constexpr uint32_t most_refinements = 5;
 // Steps of a tile's scale below the least would not be worth a new classification.
 constexpr double least_growth = 1.1, most_growth = 8;
-// Shares of interpolation that a frame may choose from, where it foresees what they cost.
-constexpr double least_share = 0.2, most_share = 0.6, share_step = 0.1;
-// Their first rounds aim below the share, since little is foreseen well.
-constexpr double foreseen_aim = 0.6;
-// What further rounds are thought to add; and what interpolation over directions is to cost, of what else there is, to be chosen.
-constexpr double cautious = 1.15, clearly_less = 0.75;
-// In the image so many times the pixels are shaded that lattices foretell: edges, contrasts, the worst pixel of a block.
-constexpr double beside_lattices = 1.6;
-// Finding neighbours, twice, and interpolating takes as long for each covered pixel as so many samples.
-constexpr double interpolated_samples = 8;
-// What is foreseen of other cells than those that were tried is believed so far.
-constexpr double most_foreseen = 8;
 // Witnesses are heard where noise is at most so many times what is allowed, and believed without doubt up to the other.
 constexpr double trusted_noise = 3, blameless_noise = 1.25;
 // A tile's few witnesses are joined by so many that saw the frame's mean.
@@ -105,19 +83,17 @@ void Pace::learn(const RoundCost& cost, bool first_of_two) {
 Control::Control(const Settings& settings, const Forecast& forecast, size_t tiles, const Pace& pace, double elapsed)
     : settings_(settings), forecast_(forecast), target_(settings.target_error()), pace_(pace) {
     interpolates_ = settings.coarsest_level() > 0;
-    share_ = interpolation_share;
     const bool known = forecast.probed_error > 0;
     if (settings.time_budget() > 0 && !(known && first_cost(forecast.covered, 0) <= light(elapsed))) target_ = 0;
     // Half of the pixels at most, or small frames would not be interpolated.
-    witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), smoothness_of(settings).cheap_witnesses, 0.5);
+    witnesses_ = std::clamp(telling_witnesses / std::max(forecast.covered, 1.0), cheap_witnesses, 0.5);
     scales_.first = float(first_scale(elapsed));
     scales_.of.assign(tiles, scales_.first);
 }
 
 double Control::first_scale(double elapsed) {
     if (settings_.bandwidth_scale() > 0) return settings_.bandwidth_scale();
-    const Smoothness& smoothness = smoothness_of(settings_);
-    double expected = smoothness.expected;
+    double expected = expected_error;
     if (target_ > 0) {
         allowed_interpolation_ = std::sqrt(interpolation_share) * aim * target_;
     } else {
@@ -128,70 +104,17 @@ double Control::first_scale(double elapsed) {
             const double least = 0.1 * settings_.time_budget() * pace_.samples_per_millisecond;
             samples = std::max(std::max(light(elapsed), least) / std::max(forecast_.covered, 1.0) - Pace::pixel_samples, fewest_in_time);
         } else {
-            expected = smoothness.unmeasured;
+            expected = unmeasured_error;
         }
         allowed_interpolation_ = expected_noise_ = forecast_.relative_deviation / std::sqrt(samples);
     }
     const double most = Settings::largest_bandwidth_scale;
-    return allowed_interpolation_ > 0 ? std::min(most, std::pow(expected / allowed_interpolation_, 1 / smoothness.power)) : most;
+    return allowed_interpolation_ > 0 ? std::min(most, std::pow(expected / allowed_interpolation_, 1 / error_power)) : most;
 }
-
-// Of a tile whose cells shade r pixels and leave a sum of squares of e, cells s times as fine shade s^2 r and leave s^-2p e. The sum of
-// what is shaded, at a given sum of errors, is least where s^(2 + 2p) is in proportion to e / r.
-Control::Foresight::Foresight(const std::vector<ForeseenTile>& tiles, double with_power) : power(with_power) {
-    for (const ForeseenTile& tile : tiles) {
-        deserved.push_back(tile.squares > 0 ? std::pow(tile.squares / std::max(tile.shaded, 1.0), 1 / (2 + 2 * power)) : 0);
-        if (!(tile.squares > 0)) {
-            shaded_anyway += tile.shaded;
-            continue;
-        }
-        left_by_one += tile.squares * std::pow(deserved.back(), -2 * power);
-        shaded_by_one += tile.shaded * std::pow(deserved.back(), 2);
-    }
-}
-double Control::Foresight::factor_for(double squares) const { return std::pow(left_by_one / squares, 0.5 / power); }
-double Control::Foresight::shaded_at(double factor) const { return shaded_anyway + shaded_by_one * factor * factor; }
-
-// The sum of squares that a first round may leave by interpolation at that share.
-double Control::allowed_squares(double share) const { return share * goal() * foreseen_aim * foreseen_aim * forecast_.covered; }
-
-// The share of interpolation at which the first round costs least, and that cost.
-std::pair<double, double> Control::best_share(const Foresight& foresight) const {
-    std::pair<double, double> best{least_share, std::numeric_limits<double>::infinity()};
-    for (double share = least_share; share <= most_share; share += share_step) {
-        const double cost = cautious * first_cost(foresight.shaded_at(foresight.factor_for(allowed_squares(share))), share);
-        if (cost < best.second) best = {share, cost};
-    }
-    return best;
-}
-
-bool Control::spares(const std::vector<ForeseenTile>& tiles, double in_image) const {
-    const Foresight foresight(tiles, smoothness_of(settings_).power);
-    if (!(foresight.left_by_one > 0) || !(target_ > 0) || !(forecast_.probed_error > 0)) return false;
-    const double shaded = std::min(beside_lattices * in_image, forecast_.covered);
-    const double other = std::min(first_cost(shaded, interpolation_share), first_cost(forecast_.covered, 0));
-    return best_share(foresight).second + interpolated_samples * forecast_.covered < clearly_less * other;
-}
-
-void Control::follow(const std::vector<ForeseenTile>& tiles) {
-    const Foresight foresight(tiles, smoothness_of(settings_).power);
-    if (!(foresight.left_by_one > 0) || !(allowed_interpolation_ > 0)) return;
-    if (target_ > 0) share_ = best_share(foresight).first;
-    const double allowed =
-        target_ > 0 ? allowed_squares(share_) : std::pow(allowed_interpolation_, 2) * forecast_.covered;
-    const double factor = foresight.factor_for(allowed);
-    for (size_t i = 0; i < tiles.size(); ++i) {
-        if (!(tiles[i].squares > 0)) continue;
-        const double step = std::clamp(factor * foresight.deserved[i], 1 / most_foreseen, most_foreseen);
-        scales_.of[i] = float(std::min(scales_.of[i] * step, Settings::largest_bandwidth_scale));
-    }
-}
-
-double Control::left_by_finer(double times) const { return std::pow(times, -2 * smoothness_of(settings_).power); }
 
 double Control::tolerance() const {
     if (target_ > 0)
-        return std::clamp(smoothness_of(settings_).tolerance * target_, least_tolerance, most_tolerance);
+        return std::clamp(tolerance_part * target_, least_tolerance, most_tolerance);
     return std::max(most_tolerance, expected_noise_);
 }
 
@@ -201,11 +124,11 @@ double Control::light(double elapsed) const {
 }
 
 double Control::goal() const { return std::pow(aim * target_, 2); }
-double Control::share_of_interpolation() const { return interpolates_ ? share_ : 0; }
+double Control::share_of_interpolation() const { return interpolates_ ? interpolation_share : 0; }
 double Control::noise_allowed() const { return (1 - share_of_interpolation()) * goal(); }
 
 double Control::first_noise(double share) const {
-    return share > 0 ? smoothness_of(settings_).held_by_first * (1 - share) * goal() : goal();
+    return share > 0 ? held_by_first * (1 - share) * goal() : goal();
 }
 
 // What shares and samples foretell of the noise is made to agree with the probe where every pixel has as many samples as that; from
@@ -238,14 +161,12 @@ bool Control::reconsider(const Histogram& histogram, double elapsed) {
 // Interpolation takes a share of the error, and so more samples of each pixel: it pays where it spares more pixels than that.
 bool Control::pays(double shaded) const {
     if (!(forecast_.probed_error > 0)) return true;
-    const bool image = settings_.interpolation() != Interpolation::directions;
-    const double cost = first_cost(shaded, share_);
-    return (image ? cost : cautious * cost + interpolated_samples * forecast_.covered) < first_cost(forecast_.covered, 0);
+    return first_cost(shaded, interpolation_share) < first_cost(forecast_.covered, 0);
 }
 
 bool Control::pays_in_time(double shaded, double light) const {
     const double each = light / std::max(shaded, 1.0) - Pace::pixel_samples, of_all = light / forecast_.covered - Pace::pixel_samples;
-    return of_all < least_samples || each * reached_by_more(smoothness_of(settings_).held_by_first * (1 - interpolation_share)) > of_all;
+    return of_all < least_samples || each * reached_by_more(held_by_first * (1 - interpolation_share)) > of_all;
 }
 
 bool Control::coarsen(double shaded, double light) {
@@ -341,7 +262,7 @@ bool Control::improve_levels(const ErrorEstimate& estimate, double allowed, doub
     bool grown = false;
     for (size_t i = 0; i < seen.size(); ++i) {
         if (estimate.tiles[i].interpolated == 0 || !(seen[i] > 0)) continue;
-        const double factor = common > 0 ? std::min(std::pow(seen[i] / common, smoothness_of(settings_).growth_power), most_growth) : most_growth;
+        const double factor = common > 0 ? std::min(std::pow(seen[i] / common, growth_power), most_growth) : most_growth;
         if (!(factor > least_growth)) continue;
         scales_.of[i] = float(std::min(scales_.of[i] * factor, Settings::largest_bandwidth_scale));
         grown = true;
@@ -372,7 +293,7 @@ bool Control::again(const ErrorEstimate& estimate, const RoundCost& cost) {
     }
     choose_witnesses(estimate);
     // No user's scale is given up, nor is interpolation for more pixels than there is time for.
-    const bool gives_up = interpolates_ && round_ >= most_refinements && estimate.interpolation > share_ * goal() &&
+    const bool gives_up = interpolates_ && round_ >= most_refinements && estimate.interpolation > interpolation_share * goal() &&
                           !(settings_.bandwidth_scale() > 0) && !(settings_.time_budget() > 0);
     if (gives_up) interpolates_ = false;
     const double goal = this->goal(), share = share_of_interpolation(), shading_allowed = noise_allowed();

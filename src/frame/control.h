@@ -1,7 +1,6 @@
 // From what the user asked (samples, an error, a time) to rounds: prediction plans the first, measurement corrects the next.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "frame/estimate.h"
@@ -42,12 +41,6 @@ public:
     double witnesses() const { return witnesses_; }
     // By how much, relatively, what the pilots expect of a pixel may differ from interpolation of what they expect of its parents.
     double tolerance() const;
-    // What was foreseen of interpolation over directions at these scales: whether it spares clearly more than to shade every pixel, or
-    // in the image so many; and to follow it, rather than a general rule.
-    bool spares(const std::vector<ForeseenTile>& tiles, double in_image) const;
-    void follow(const std::vector<ForeseenTile>& tiles);
-    // What is left of a squared error of interpolation where everything is so many times as fine.
-    double left_by_finer(double times) const;
     // What was learnt of the device.
     const Pace& pace() const { return pace_; }
     // Whether pixels may be interpolated; no longer, where it does not pay or rounds have not found levels for it.
@@ -66,17 +59,7 @@ public:
     bool again(const ErrorEstimate& estimate, const RoundCost& cost);
 
 private:
-    // Tiles of cells, each made as many times as fine as it deserves times a common factor.
-    struct Foresight {
-        double power, left_by_one = 0, shaded_by_one = 0, shaded_anyway = 0;  // squares left, pixels shaded, at a factor of 1
-        std::vector<double> deserved;
-        Foresight(const std::vector<ForeseenTile>& tiles, double with_power);
-        double factor_for(double squares) const;
-        double shaded_at(double factor) const;
-    };
     double light(double elapsed) const;
-    double allowed_squares(double share) const;
-    std::pair<double, double> best_share(const Foresight& foresight) const;
     bool improve_levels(const ErrorEstimate& estimate, double allowed, double doubt);
     void choose_witnesses(const ErrorEstimate& estimate);
     bool out_of_time(const RoundCost& cost);
@@ -104,7 +87,6 @@ private:
     double wanted_part_ = 0;     // of its noise that the next round is to leave
     double expected_noise_ = 0;  // of a frame that asks for no error
     Pace pace_;
-    double share_ = 0;                  // of interpolation, in the squared error
     double allowed_interpolation_ = 0;  // error of the first round
     uint32_t round_ = 0;
     bool first_of_two_ = false;  // rounds of a frame with a time budget

@@ -67,66 +67,34 @@ RoundPixels Frame::Result::read_round() const {
     return pixels;
 }
 
-Tiles Frame::Result::tiles() const {
-    if (!prediction || !prediction->interpolates()) return {};
-    if (prediction->pyramids) return tiles_of_picture(stats.width, stats.height);
-    const std::vector<uint32_t> words = read_words(prediction->mirrors->cells, size_t(stats.width) * stats.height);
-    const std::vector<uint8_t> material = read_bytes(gbuffer.material, words.size());
-    Tiles tiles{slots * MirrorCells::tiles, std::vector<uint32_t>(words.size())};
-    for (size_t i = 0; i < words.size(); ++i)
-        if (material[i] != 0) tiles.of[i] = MirrorCells::tile_of(words[i], slot_of[material[i] - 1u]);
-    return tiles;
-}
-
-// A pixel of a lattice stands for those nearer to it than to others of the lattice, or of its own spacing; one that speaks for a cell,
-// for those in it.
+// A pixel of a lattice stands for those nearer to it than to others of the lattice, or of its own spacing.
 std::vector<float> Frame::Result::areas() const {
-    if (!prediction || !prediction->interpolates()) return {};
-    const size_t count = size_t(stats.width) * stats.height;
-    std::vector<float> areas(count, 1);
-    if (prediction->pyramids) {
-        const std::vector<uint8_t> levels = read_bytes(prediction->pyramids->levels, size_t(stats.width) * prediction->pyramids->height);
-        for (size_t i = 0; i < count; ++i) {
-            const uint32_t x = uint32_t(i % stats.width), y = uint32_t(i / stats.width);
-            areas[i] = std::ldexp(1.0f, 2 * int(std::min(lattice_level(x, y, settings.coarsest_level()), uint32_t(levels[i]))));
-        }
-        return areas;
+    if (!prediction || !prediction->pyramids) return {};
+    std::vector<float> areas(size_t(stats.width) * stats.height, 1);
+    const std::vector<uint8_t> levels = read_bytes(prediction->pyramids->levels, size_t(stats.width) * prediction->pyramids->height);
+    for (size_t i = 0; i < areas.size(); ++i) {
+        const uint32_t x = uint32_t(i % stats.width), y = uint32_t(i / stats.width);
+        areas[i] = std::ldexp(1.0f, 2 * int(std::min(lattice_level(x, y, settings.coarsest_level()), uint32_t(levels[i]))));
     }
-    const MirrorCells& mirrors = *prediction->mirrors;
-    const std::vector<uint32_t> words = read_words(mirrors.cells, count);
-    const std::vector<uint8_t> material = read_bytes(gbuffer.material, count);
-    std::vector<uint32_t> pixels_of(mirrors.counts.buffer.bytes() / sizeof(uint32_t));
-    mirrors.counts.buffer.read(0, mirrors.counts.buffer.bytes(), pixels_of.data());
-    for (size_t i = 0; i < count; ++i)
-        if (material[i] != 0 && MirrorCells::level_of(words[i]) != MirrorCells::too_fine)
-            areas[i] = float(pixels_of[mirrors.index_of(words[i], slot_of[material[i] - 1u])]);
     return areas;
 }
 
 // How interpolation's squared error is spread over the pixels, up to a factor: linear interpolation errs by the square of
-// bandwidth times spacing. The spacing is that of a pixel's parents, or of the cells around it.
+// bandwidth times spacing.
 std::vector<float> Frame::interpolation_shape() const {
     const Result& r = result();
     std::vector<float> shape(pixels());
-    if (!r.prediction || !r.prediction->interpolates()) return shape;
-    const bool image = bool(r.prediction->pyramids);
-    const std::vector<float> bandwidth = image ? read_floats(r.prediction->bandwidth, GL_BLUE, pixels(), 1)
-                                               : read_floats(r.prediction->reflected, GL_RED, pixels(), 1);
-    const std::vector<uint32_t> words = image ? std::vector<uint32_t>() : read_words(r.prediction->mirrors->cells, pixels());
+    if (!r.prediction || !r.prediction->pyramids) return shape;
+    const std::vector<float> bandwidth = read_floats(r.prediction->bandwidth, GL_BLUE, pixels(), 1);
     for (size_t i = 0; i < shape.size(); ++i) {
-        int level;  // log2 of the spacing between two parents, or across a cell up to a factor
-        if (image) {
-            const uint32_t bits = uint32_t(i % width_) | uint32_t(i / width_);
-            level = 1 + (bits == 0 ? 0 : int(std::log2(double(bits & (~bits + 1)))));
-        } else {
-            level = -int(MirrorCells::level_of(words[i]));
-        }
+        const uint32_t bits = uint32_t(i % width_) | uint32_t(i / width_);
+        const int level = 1 + (bits == 0 ? 0 : int(std::log2(double(bits & (~bits + 1)))));  // log2 of the spacing between two parents
         shape[i] = float(std::pow(bandwidth[i] * std::ldexp(1.0, level), 4));
     }
     return shape;
 }
 
-// Frames that do not interpolate in the image need no pyramids, nor do those whose shares do not follow variance need that one: theirs
+// Frames that do not interpolate need no pyramids, nor do those whose shares do not follow variance need that one: theirs
 // are made when they are asked for, of the bandwidth as it is.
 HostArray Frame::pyramid(const std::string& name, const std::vector<uint8_t>& material) const {
     const Result& r = result();
@@ -203,21 +171,6 @@ HostArray Frame::predicted(const std::string& name, const std::vector<uint8_t>& 
     if (name == "curvature") return scalar(alpha_of(read_floats(prediction.bandwidth, GL_RGBA, pixels(), 4)), "1/metre");
     if (name == "variance_predicted")
         return scalar(scaled_bound(read_floats(prediction.prediction, GL_RED, pixels(), 1), result().squared_unit()), "radiance^2");
-    if (name == "bandwidth_reflected") {
-        std::vector<float> reflected(pixels());
-        if (prediction.mirrors) reflected = read_floats(prediction.reflected, GL_RED, pixels(), 1);
-        for (size_t i = 0; i < pixels(); ++i)
-            if (material[i] == 0) reflected[i] = 0;
-        return scalar(std::move(reflected), "1/radian");
-    }
-    if (name == "cell_level") {
-        std::vector<uint8_t> levels(pixels());
-        if (prediction.mirrors) {
-            const std::vector<uint32_t> words = read_words(prediction.mirrors->cells, pixels());
-            for (size_t i = 0; i < pixels(); ++i) levels[i] = material[i] != 0 ? uint8_t(MirrorCells::level_of(words[i])) : 0;
-        }
-        return HostArray::of(LB_TYPE_UINT8, {height_, width_}, "log2(cell)", std::move(levels));
-    }
     return pyramid(name, material);
 }
 

@@ -7,10 +7,8 @@
 
 #include "frame/combine.h"
 #include "frame/job.h"
-#include "passes/foresee.h"
 #include "passes/gbuffer.h"
-#include "passes/interpolate.h"
-#include "passes/mirror_cells.h"
+#include "passes/upsample.h"
 
 namespace lightband {
 namespace {
@@ -25,11 +23,6 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
 // Samples of a round for which the map's directions are drawn anew: those of one drawing, 65,536, would limit the error. It costs as
 // much as half a million samples or so.
 constexpr uint64_t worth_new_points = 1u << 23;
-
-// Fewer covered pixels than this are shaded in the time that it takes to find out from where they could be interpolated; of them, where
-// fewer than this part would be shaded in the image, so few are left to be spared.
-constexpr uint32_t worthwhile_pixels = 40'000;
-constexpr double smooth_part = 0.12;
 
 // Of a frame that is asked for an error it is not known how many rounds will come. Further ones, with what lies between them, are expected
 // to take this part of the time that the shading of the last one took.
@@ -78,8 +71,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
 
     passes::gbuffer(*device_, scene, width_, height_, &next.gbuffer);
     next.plan.finished("gbuffer", text(scene.instances().size(), " instances"), next.gbuffer.bytes(), pixels(), "pixels");
-    const bool lattices = settings.interpolation() != Interpolation::directions;
-    job.covered = passes::covered(gl, next.gbuffer, width_, height_, lattices ? settings.coarsest_level() : 0);
+    job.covered = passes::covered(gl, next.gbuffer, width_, height_, settings.coarsest_level());
     next.plan.finished("covered", "list of the pixels that see a mesh", job.covered.entries.bytes(), pixels(), "pixels");
     job.expected = expected_shading(job.covered.all.count);
     report_preparation(job);
@@ -137,12 +129,7 @@ Forecast Frame::predict(Job* job) const {
     report_preparation(*job);
     next.plan.finished("environment", "bandwidth of the map and the lobes, tables of the sampler; once for each", job->scene.light->device_bytes(), 0, "");
 
-    // Frames that are asked for no error do not know what it would cost; those asked for a time do without what takes some to find out.
-    const bool maybe = settings.interpolation() == Interpolation::automatic && settings.target_error() > 0 &&
-                       settings.time_budget() <= 0 && job->covered.all.count >= worthwhile_pixels;
-    const bool over_directions =
-        settings.coarsest_level() > 0 && (maybe || settings.interpolation() == Interpolation::directions);
-    const Prediction& prediction = next.prediction.emplace(device_->gl(), width_, height_, over_directions);
+    const Prediction& prediction = next.prediction.emplace(device_->gl(), width_, height_);
     passes::predict(*device_, job->scene, job->slots, job->slot_of, settings, height_, job->covered, next.gbuffer, prediction);
     const Forecast forecast = passes::forecast(*device_, job->covered, prediction, height_);
     next.mean_radiance = forecast.mean_radiance;
@@ -151,70 +138,18 @@ Forecast Frame::predict(Job* job) const {
     return forecast;
 }
 
-// What interpolation would cost at control's scales: by the pilots, at some of the pixels, and by how far pilots are right of what audited
-// pixels show.
-std::vector<ForeseenTile> Frame::foresee(Job* job, const Control& control, const Forecast& forecast) const {
-    Result& next = *job->result;
-    constexpr uint32_t telling_pixels = 6000, most_stride = 16;
-    const uint32_t stride = std::clamp(job->covered.all.count / telling_pixels, 1u, most_stride);
-    passes::mirror_cells(*device_, control.scales(), {}, job->slot_of, job->covered, next.gbuffer, next.shading, *next.prediction,
-                         stride);
-    std::vector<ForeseenTile> tiles = passes::foresee(*device_, next.slots, job->scene.light->lamps(), forecast, control.tolerance(),
-                                                      job->slot_of, job->covered, next.gbuffer, *next.prediction, stride);
-    const double truth = rehearsed(*job, forecast.mean_radiance) * control.left_by_finer(std::sqrt(double(stride)));
-    for (ForeseenTile& tile : tiles) tile.squares *= truth;
-    next.plan.finished("foresee", "what interpolation will cost, by the pilots", 0, job->covered.all.count / stride, "pixels");
-    return tiles;
-}
-
-// Chooses the way of interpolation, where that is left to the frame, makes what it needs, and foresees what it will cost.
-void Frame::prepare_interpolation(Job* job, const Forecast& forecast) const {
-    Result& next = *job->result;
-    Settings& own = job->settings;
-    if (!next.prediction || own.coarsest_level() == 0) return;
-    const double elapsed = next.plan.total_milliseconds();
-    const bool automatic = own.interpolation() == Interpolation::automatic;
-    double in_image = 0;  // pixels
-    if (automatic) {
-        own.set_choice("interpolation", "image");
-        if (next.prediction->reflected) {
-            const double scale = Control(own, forecast, 1, pace_, elapsed).scales().first;
-            in_image = passes::lattice_pixels(*device_, next.gbuffer, *next.prediction, height_, scale, own.coarsest_level());
-            if (in_image > smooth_part * forecast.covered) own.set_choice("interpolation", "directions");
-        }
-    }
-    if (own.interpolation() == Interpolation::directions) {
-        next.prediction->mirrors.emplace(device_->gl(), width_, height_, next.slots, job->covered.all.count);
-        Control control(own, forecast, next.slots * MirrorCells::tiles, pace_, elapsed);
-        if (!(own.bandwidth_scale() > 0)) job->foreseen = foresee(job, control, forecast);
-        if (!automatic || control.spares(job->foreseen, in_image)) return;
-        own.set_choice("interpolation", "image");
-        next.prediction->mirrors.reset();
-    }
-    next.prediction->pyramids.emplace(device_->gl(), width_, height_, own.coarsest_level(), own.shares_follow_variance());
-}
-
 // How fine the bandwidth times the scales that control has chosen asks pixels to be shaded.
-void Frame::choose_levels(Job* job, const Control& control, const Forecast& forecast, const passes::Witnesses& witnesses) const {
+void Frame::choose_levels(Job* job, const Control& control, const Forecast& forecast) const {
     Result& next = *job->result;
     const Scales& scales = control.scales();
     if (job->scales == scales.of) return;
     job->scales = scales.of;
     const auto [least, most] = std::minmax_element(scales.of.begin(), scales.of.end());
-    const std::string scaled = text(", bandwidth times ", *least, " to ", *most);
-    if (next.prediction->pyramids) {
-        passes::pyramids(*device_, forecast, scales, job->settings, job->covered, width_, height_, *next.prediction,
-                         *next.prediction->pyramids);
-        job->tiles = next.tiles();
-        const char* made = next.prediction->pyramids->variances ? "least level and largest variance" : "least level";
-        next.plan.finished("pyramids", text(made, " of each block", scaled), next.prediction->pyramids->bytes(), pixels(), "pixels");
-        return;
-    }
-    passes::mirror_cells(*device_, scales, witnesses, job->slot_of, job->covered, next.gbuffer, next.shading,
-                         *next.prediction);
-    job->tiles = next.tiles();
-    next.plan.finished("cells", "pixels by mirror direction, one of each cell to be shaded" + scaled, next.prediction->mirrors->bytes(),
-                       job->covered.all.count, "pixels");
+    const Pyramids& pyramids = *next.prediction->pyramids;
+    passes::pyramids(*device_, forecast, scales, job->settings, job->covered, width_, height_, *next.prediction, pyramids);
+    const char* made = pyramids.variances ? "least level and largest variance" : "least level";
+    next.plan.finished("pyramids", text(made, " of each block, bandwidth times ", *least, " to ", *most), pyramids.bytes(), pixels(),
+                       "pixels");
 }
 
 // Which pixels are shaded.
@@ -222,13 +157,12 @@ void Frame::decide(Job* job, Control* control, const Forecast& forecast) const {
     Result& next = *job->result;
     if (next.prediction && !control->interpolates()) {
         next.prediction->pyramids.reset();
-        next.prediction->mirrors.reset();
         job->tiles = {};
     }
     const Prediction* prediction = next.prediction ? &*next.prediction : nullptr;
     const passes::Witnesses witnesses{control->witnesses(), job->audited, settings.seed(), next.stats.rounds};
-    const bool interpolates = prediction != nullptr && prediction->interpolates();
-    if (interpolates) choose_levels(job, *control, forecast, witnesses);
+    const bool interpolates = prediction != nullptr && prediction->pyramids;
+    if (interpolates) choose_levels(job, *control, forecast);
     const std::vector<Lamp> none;
     const passes::Criteria criteria{job->settings, interpolates ? job->scene.light->lamps() : none, witnesses, control->tolerance(),
                                     job->redraw.bins, int(std::lround(bins_per_octave * std::log2(job->grown)))};
@@ -300,18 +234,15 @@ void Frame::shade(Job* job, const passes::Seeds& seeds) const {
     next.plan.finished("shade", text(list.pixels, " pixels in ", job->slots.materials.size(), " materials"),
                        next.shading.radiance.bytes() + next.shading.spread.bytes() + next.shading.sample_count.bytes(),
                        list.total_samples, "samples");
-    if (!next.prediction || !next.prediction->interpolates()) return;
-    passes::interpolate(*device_, settings, job->slot_of, job->covered, next.gbuffer, *next.prediction, next.shading);
-    next.plan.finished(next.prediction->mirrors ? "interpolate" : "upsample",
-                       "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count, "pixels");
+    if (!next.prediction || !next.prediction->pyramids) return;
+    passes::upsample(*device_, settings, job->covered, *next.prediction->pyramids, next.shading);
+    next.plan.finished("upsample", "pixels between shaded ones, and what they would be at witnesses", 0, job->covered.all.count, "pixels");
 }
 
 void Frame::measure(Job* job) const {
     Result& next = *job->result;
     RoundPixels pixels = next.read_round();
-    const bool image = next.prediction && next.prediction->pyramids;
-    pixels.neighbour_part = neighbour_parts(pixels, job->audit, job->tiles, width_, image ? settings.coarsest_level() : 0,
-                                            settings.accumulate());
+    pixels.neighbour_part = neighbour_parts(pixels, job->audit, job->tiles, width_, settings.coarsest_level(), settings.accumulate());
     next.estimate = estimate_error(pixels, next.slot_of, next.slots, job->audit, job->tiles);
     job->samples = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
     // A pixel is drawn anew or left as it was.
@@ -334,8 +265,7 @@ void Frame::measure(Job* job) const {
 void Frame::combine(const Job& job) const {
     Result& next = *job.result;
     if (job.pixels.neighbour_part.empty()) return;
-    passes::combine(*device_, settings, job.slot_of, job.covered, next.gbuffer, *next.prediction, job.pixels.neighbour_part, width_,
-                    next.shading);
+    passes::combine(*device_, job.covered, *next.prediction->pyramids, job.pixels.neighbour_part, width_, next.shading);
     next.neighbour_part = job.pixels.neighbour_part;
     next.plan.finished("combine", "shaded pixels joined with what is interpolated there", 0, job.covered.all.count, "pixels");
 }
@@ -346,11 +276,12 @@ bool Frame::rounds(Job* job, const Forecast& forecast) const {
     next.stats.rounds = 0;
     job->scales.clear();
     next.shading.clear(device_->gl());
-    prepare_interpolation(job, forecast);
-    const size_t tiles = job->settings.interpolation() != Interpolation::directions ? size_t(tiles_along(width_)) * tiles_along(height_)
-                                                                          : next.slots * MirrorCells::tiles;
+    if (next.prediction && settings.coarsest_level() > 0) {
+        next.prediction->pyramids.emplace(device_->gl(), width_, height_, settings.coarsest_level(), job->settings.shares_follow_variance());
+        job->tiles = tiles_of_picture(width_, height_);
+    }
+    const size_t tiles = size_t(tiles_along(width_)) * tiles_along(height_);
     Control control(job->settings, forecast, tiles, pace_, next.plan.total_milliseconds());
-    if (!job->foreseen.empty() && job->settings.interpolation() == Interpolation::directions) control.follow(job->foreseen);
     const bool one = settings.target_error() <= 0 && settings.time_budget() <= 0;
     uint32_t points_seed = settings.seed();
     RoundCost& cost = job->cost;

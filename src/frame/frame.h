@@ -52,9 +52,7 @@ public:
         {"bandwidth_spatial", true},
         {"bandwidth_angular", true},
         {"bandwidth_image", true},
-        {"bandwidth_reflected", true},
         {"level", true},
-        {"cell_level", true},
         {"shaded", false},
         {"sample_count", false},
         {"error", false},
@@ -78,7 +76,6 @@ private:
     void audit(Job* job, Forecast* forecast) const;
     void draw_pilots(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const;
     void plan_from_pilots(const Job& job, Forecast* forecast) const;
-    double rehearsed(const Job& job, double mean_radiance) const;
     double probed_error(const Job& job, const std::vector<Audit::Pixel>& probe, const Forecast& forecast) const;
     void look_closely(Job* job, const std::vector<uint32_t>& drawn, uint32_t samples) const;
     // A validation pixel that is to be rechecked: chosen by chance; and one where pilot pass and validation differ.
@@ -93,9 +90,7 @@ private:
     Settings with_sampler(const char* sampler) const;
     bool audit_again(Job* job) const;
     bool rounds(Job* job, const Forecast& forecast) const;
-    void prepare_interpolation(Job* job, const Forecast& forecast) const;
-    std::vector<ForeseenTile> foresee(Job* job, const Control& control, const Forecast& forecast) const;
-    void choose_levels(Job* job, const Control& control, const Forecast& forecast, const passes::Witnesses& witnesses) const;
+    void choose_levels(Job* job, const Control& control, const Forecast& forecast) const;
     void decide(Job* job, Control* control, const Forecast& forecast) const;
     bool list(Job* job, Control* control, const Forecast& forecast) const;
     double expected_shading(double covered) const;

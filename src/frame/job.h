@@ -13,13 +13,12 @@ struct Frame::Job {
     const Scene& scene;
     Meter& meter;
     const std::shared_ptr<Result> result;
-    Settings settings;  // of its rounds: the frame's, but for the way of interpolation, and for a sampler that was replaced
+    Settings settings;  // of its rounds: the frame's, but for a sampler that was replaced
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
     passes::Covered covered{};
     std::vector<float> scales{};             // of the levels as they are
     Tiles tiles{};                           // none yet where empty
-    std::vector<ForeseenTile> foreseen{};    // of interpolation over directions; none where empty
     passes::Counts counts{};
     passes::ShadingList list{};              // of the last round
     RoundPixels pixels{};                    // as the last round left them

@@ -23,7 +23,6 @@ struct Frame::Result {
 
     double squared_unit() const { return radiance_unit * radiance_unit; }
     RoundPixels read_round() const;  // of several frames, their mean
-    Tiles tiles() const;
     std::vector<float> areas() const;  // the number of pixels for which each shaded one stands; empty where nothing is interpolated
     std::vector<uint8_t> neighbour_part;  // RoundPixels: of the finished picture, which shows it; empty before
     std::vector<float> accumulated;    // RGBA means over several frames, where asked for

@@ -15,9 +15,7 @@ std::string definitions(const Settings& settings, const Prediction* prediction) 
     std::string result = text("BINS ", budget_bins, "\nSHARE_ONE ", share_one, "\nBINS_PER_OCTAVE ", bins_per_octave);
     if (prediction == nullptr) return result;
     result += "\nPREDICTED";
-    if (prediction->pyramids)
-        result += text("\nINTERPOLATE_IMAGE\nPYRAMID_LEVELS ", prediction->pyramids->rows.size());
-    if (prediction->mirrors) result += "\nINTERPOLATE_DIRECTIONS\n" + prediction->mirrors->definitions();
+    if (prediction->pyramids) result += text("\nINTERPOLATE\nPYRAMID_LEVELS ", prediction->pyramids->rows.size());
     if (settings.shares_follow_variance()) result += "\nSHARES_FOLLOW_VARIANCE";
     if (settings.allocation() == Allocation::constant_variance) result += "\nALLOCATION_CONSTANT_VARIANCE";
     return result;
@@ -78,13 +76,6 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
         bind_image(gl, 0, pyramids.levels, GL_R8UI);
         bind_image(gl, 4, pyramids.weights, GL_RGBA16);
         if (settings.shares_follow_variance()) bind_image(gl, 1, pyramids.variances, GL_R32F);
-    }
-    if (prediction != nullptr && prediction->mirrors) {
-        bind_texture(gl, 8, prediction->mirrors->cells);
-        bind_texture(gl, 9, prediction->mirrors->claims.texture);
-        bind_texture(gl, 10, prediction->mirrors->counts.texture);
-        bind_texture(gl, 11, prediction->mirrors->occupants.texture);
-        bind_texture(gl, 12, prediction->mirrors->mirrors.texture);
     }
     if (further) {
         bind_texture(gl, 6, former);

@@ -1,12 +1,10 @@
 #include "passes/gather.h"
 
 #include "gl/dispatch.h"
-#include "passes/gbuffer.h"
 
 namespace lightband::passes {
 
-std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const GBuffer& gbuffer, const Shading& shading,
-                             const Prediction* prediction) {
+std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const Shading& shading, const Prediction* prediction) {
     const gl::Functions& gl = device.gl();
     std::vector<Gathered> gathered(list.pixels);
     if (gathered.empty()) return gathered;
@@ -15,7 +13,6 @@ std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const 
     const gl::Program& program = device.compute("gather", prediction != nullptr ? "PREDICTED" : "");
     program.set("count", uint32_t(gathered.size()));
     program.use();
-    bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 0, list.entries_texture);
     bind_texture(gl, 1, shading.radiance);
     bind_texture(gl, 2, shading.spread);

@@ -9,11 +9,9 @@ struct Gathered {
     float rgb[3], square;    // radiance; mean of its samples' squared luminances
     float spread, expected;  // half the difference of its replicates' luminances; luminance as predicted, or 0
     float unused[2];         // of the shader's vec4
-    float normal[3], unused_either;
 };
 
 // prediction: null where nothing was predicted. One for each of the list's pixels, in its order.
-std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const GBuffer& gbuffer, const Shading& shading,
-                             const Prediction* prediction);
+std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const Shading& shading, const Prediction* prediction);
 
 }  // namespace lightband::passes

@@ -64,7 +64,6 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
         "bandwidth", text("LOBE_VIEWS ", LobeTable::views,
                           settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
                           settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
-                          target.reflected ? "\nOVER_DIRECTIONS" : "",
                           scene.light->hides_light() ? "\nHIDES_LIGHT" : "",
                           sampler_definition(settings.sampler())));
     program.set("map_density", float(1 / (4 * pi * scene.light->mean())));
@@ -79,7 +78,6 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
     bind_texture(gl, 5, slot_of.texture);
     bind_image(gl, 0, target.bandwidth, GL_RGBA32F);
     bind_image(gl, 1, target.prediction, GL_RG32F);
-    if (target.reflected) bind_image(gl, 2, target.reflected, GL_R32F);
     // Where nothing is seen, nothing arrives.
     const float zeros[4] = {0, 0, 0, 0};
     gl.ClearTexImage(target.bandwidth.name(), 0, GL_RGBA, GL_FLOAT, zeros);
@@ -98,16 +96,6 @@ Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& 
     result.mean_radiance = row_sums(device, height, "", predicted) / result.covered;
     result.relative_deviation = row_sums(device, height, "DEVIATIONS", predicted) / result.covered;
     return result;
-}
-
-double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t height, double scale,
-                      uint32_t coarsest_level) {
-    return row_sums(device, height, "LATTICES", [&](const gl::Program& program) {
-        program.set("scale", float(scale));
-        program.set("coarsest_level", int32_t(coarsest_level));
-        bind_texture(device.gl(), 0, prediction.bandwidth);
-        bind_texture(device.gl(), 1, gbuffer.material);
-    });
 }
 
 void pyramids(gl::Device& device, const Forecast& forecast, const Scales& scales, const Settings& settings,

@@ -23,10 +23,6 @@ void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, 
 
 Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& prediction, uint32_t height);
 
-// How many pixels would be shaded in the image at that scale, if all around each asked for the level that it asks for.
-double lattice_pixels(gl::Device& device, const GBuffer& gbuffer, const Prediction& prediction, uint32_t height, double scale,
-                      uint32_t coarsest_level);
-
 // Levels (eq. 11) and, where target holds them, relative variances with their min and max pyramids (shaders/levels.glsl,
 // pyramid.glsl). scales: of tiles of the picture (picture/tiles.h).
 void pyramids(gl::Device& device, const Forecast& forecast, const Scales& scales, const Settings& settings,

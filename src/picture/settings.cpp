@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
 #include "base/error.h"
@@ -28,12 +29,12 @@ lb_setting_info choice_of(const char* name, const char* choices, const char* sta
 // The order is that of the enumerations in settings.h and elsewhere; Place names it.
 enum Place {
     place_method, place_target_error, place_time_budget, place_samples, place_max_samples, place_bandwidth_scale,
-    place_interpolation, place_coarsest_level, place_pilots,
+    place_coarsest_level, place_pilots,
     place_transport, place_band_rule, place_variance, place_allocation, place_sampler, place_sequence, place_brdf_lookup,
     place_environment_lookup, place_background, place_seed, place_accumulate, place_count
 };
 
-const lb_setting_info table[place_count] = {
+const lb_setting_info table[] = {
     choice_of("method", "adaptive|reference", "adaptive",
               "adaptive: shade where the predicted bandwidth asks for it, interpolate elsewhere. reference: shade every pixel "
               "with random samples of the BRDF, the same number of each unless an error or a time is asked for."),
@@ -50,14 +51,9 @@ const lb_setting_info table[place_count] = {
     real("bandwidth_scale", 0, Settings::largest_bandwidth_scale, 0,
          "Factor on the predicted image bandwidth before a level is chosen; more: more pixels are shaded. 0: chosen so that "
          "interpolation errs about as much as the predicted noise; it grows with samples."),
-    choice_of("interpolation", "auto|directions|image", "auto",
-              "From where a pixel that is not shaded takes its value. directions: from pixels of the same material that mirror the eye "
-              "towards nearby directions, wherever they are in the picture (docs/decisions/0012). image: from pixels beside it, as in "
-              "section 3.2. auto: directions in large frames that are asked for an error and no time, where that is foreseen to cost clearly "
-              "less; else image."),
     integer("coarsest_level", 0, 8, 5,
-            "Coarsest spacing of shaded pixels is 2^coarsest_level where they are interpolated in the image. 0 shades every pixel, "
-            "however interpolated, as a frame with an error or a time does where interpolation would not pay."),
+            "Coarsest spacing of shaded pixels is 2^coarsest_level. 0 shades every pixel, as a frame with an error or a time does where "
+            "interpolation would not pay."),
     integer("pilots", 4, 1024, 16, "Directions per pixel in the prediction: n_b of eq. 5 and 9."),
     choice_of("transport", "correlated|box", "correlated",
               "Form of the reflection operator. box: as printed in figure 4. correlated: spatial and angular bandwidth of distant "
@@ -87,6 +83,8 @@ const lb_setting_info table[place_count] = {
     integer("accumulate", 1, 1 << 20, 1,
             "Frames rendered with successive seeds and averaged in double precision. 1 where an error or a time is asked for."),
 };
+
+static_assert(std::size(table) == place_count);
 
 int find(const std::string& name) {
     for (int i = 0; i < place_count; ++i)
@@ -161,7 +159,6 @@ uint32_t Settings::count() { return place_count; }
 const lb_setting_info& Settings::info(uint32_t index) { return table[index]; }
 
 Method Settings::method() const { return values_[place_method] == 0 ? Method::adaptive : Method::reference; }
-Interpolation Settings::interpolation() const { return Interpolation(int(values_[place_interpolation])); }
 TransportForm Settings::transport() const {
     return values_[place_transport] == 0 ? TransportForm::correlated : TransportForm::box;
 }

@@ -16,7 +16,6 @@ namespace lightband {
 enum class Method { adaptive, reference };
 enum class Variance { moments, printed };
 enum class Sequence { lattice, random };
-enum class Interpolation { automatic, directions, image };
 enum class Sampler { cut, combined, filtered, brdf };
 
 class Settings {
@@ -33,7 +32,6 @@ public:
     static const lb_setting_info& info(uint32_t index);
 
     Method method() const;
-    Interpolation interpolation() const;
     TransportForm transport() const;
     BandRule band_rule() const;
     Variance variance() const;

@@ -21,7 +21,7 @@ struct GBuffer {
     size_t bytes() const { return surface.bytes() + material.bytes() + depth.bytes(); }
 };
 
-// For interpolation in the image. Pyramids are pictures with each level below the finer one; rows[l] is where level l starts.
+// For interpolation. Pyramids are pictures with each level below the finer one; rows[l] is where level l starts.
 struct Pyramids {
     gl::Texture levels;     // R8UI; 255: nothing seen
     gl::Texture variances;  // R32F: relative; none where nothing asks for it
@@ -33,45 +33,14 @@ struct Pyramids {
     size_t bytes() const { return levels.bytes() + variances.bytes() + weights.bytes(); }
 };
 
-// A table that is written as storage or as an image, and read as a texture.
-struct Table {
-    gl::Buffer buffer;
-    gl::Texture texture;
-};
-
-// For interpolation over directions: pixels sorted by where a mirror would send the eye's ray (shaders/mirrors.glsl). Levels are
-// octahedral squares of 2^l cells a side, one of each for every BRDF slot.
-struct MirrorCells {
-    gl::Texture cells;  // R32UI: level and cell of each pixel
-    Table claims;       // which pixel speaks for a cell
-    Table counts;       // how many pixels lie in it
-    Table occupants;    // a shaded pixel in it, of its own level or one beside that
-    Table mirrors;      // four words for each covered pixel
-    uint32_t last_level;
-
-    static constexpr uint32_t first_level = 3, tiles = 1u << 2 * first_level;
-    // Of the word of a pixel that asks for finer cells than there are.
-    static constexpr uint32_t too_fine = 15;
-
-    MirrorCells(const gl::Functions& gl, uint32_t width, uint32_t height, size_t slots, uint64_t covered_pixels);
-    static uint32_t level_of(uint32_t word) { return word >> 28; }
-    static uint32_t tile_of(uint32_t word, uint32_t slot);
-    size_t index_of(uint32_t word, uint32_t slot) const;  // into the tables
-    std::string definitions() const;
-    size_t bytes() const;
-};
-
-// The bandwidth buffer, and what interpolation makes of it: at most one of the two ways.
+// The bandwidth buffer, and what interpolation makes of it.
 struct Prediction {
     gl::Texture bandwidth;   // RGBA32F: spatial, angular, image bandwidth, curvature
     gl::Texture prediction;  // RG32F: variance of one sample, mean radiance
-    gl::Texture reflected;   // R32F: bandwidth over mirror directions, cycles per radian; none where nothing asks for it
-    std::optional<Pyramids> pyramids;
-    std::optional<MirrorCells> mirrors;
+    std::optional<Pyramids> pyramids;  // none where every pixel is shaded
 
-    Prediction(const gl::Functions& gl, uint32_t width, uint32_t height, bool over_directions);
-    bool interpolates() const { return pyramids || mirrors; }
-    size_t bytes() const;
+    Prediction(const gl::Functions& gl, uint32_t width, uint32_t height);
+    size_t bytes() const { return bandwidth.bytes() + prediction.bytes() + (pyramids ? pyramids->bytes() : 0); }
 };
 
 struct Shading {

@@ -1,4 +1,4 @@
-// What interpolation costs is held against the bandwidth in tiles: of the picture, or of the mirror directions of each BRDF slot.
+// What interpolation costs is held against the bandwidth in tiles of the picture.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,6 @@ struct Tiles {
 struct Scales {
     std::vector<float> of;
     float first = 1;
-};
-
-// What the pilots foresee of a tile: pixels to be interpolated and to be shaded, and the sum of the former's squared errors.
-struct ForeseenTile {
-    double interpolated, shaded, squares;
 };
 
 // Squares of so many pixels a side.

@@ -453,8 +453,7 @@ std::vector<Scenario> make_scenarios() {
         first_render("first_render", 8, {{"samples", 8}}, {}),
         next_render("next_render", 20, {{"samples", 8}}, {}),
         next_render("render_error", 20, {{"target_error", 0.1}}, {{"background", "environment"}}),
-        next_render("render_directions", 8, {{"samples", 8}, {"accumulate", 2}},
-                    {{"interpolation", "directions"}, {"sampler", "combined"}}),
+        next_render("render_accumulated", 8, {{"samples", 8}, {"accumulate", 2}}, {{"sampler", "combined"}}),
         next_render("render_reference", 20, {{"samples", 4}}, {{"method", "reference"}}),
         about_picture("explain", 40, [] {
             char text[4096];

@@ -12,7 +12,7 @@ import lightband
 
 HEIGHT, WIDTH = 24, 40
 SHAPES = {"color": (HEIGHT, WIDTH, 4), "position": (HEIGHT, WIDTH, 3), "normal": (HEIGHT, WIDTH, 3)}
-BYTES = {"material", "level", "cell_level", "shaded", "level_pyramid"}
+BYTES = {"material", "level", "shaded", "level_pyramid"}
 
 
 def element_type(name: str) -> type:

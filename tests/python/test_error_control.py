@@ -127,7 +127,7 @@ def test_witnesses_are_others_in_every_round(context):
     scene.add(context.builtin_mesh("blob", 128), context.builtin_brdf("interference-paint"))
     scene.camera(eye=(0.3, 0.4, 1.9), target=(0, 0, 0), fov_y=0.6)
     # Both tolerate as much contrast (3 %), so that their first rounds are alike.
-    frames = [context.frame(160, 128, target_error=asked, bandwidth_scale=0.2, interpolation="image") for asked in (0.025, 0.01)]
+    frames = [context.frame(160, 128, target_error=asked, bandwidth_scale=0.2) for asked in (0.025, 0.01)]
     for frame in frames:
         frame.render(scene)
     few, many = (frame.stats for frame in frames)

@@ -53,7 +53,6 @@ def cases(maps: tuple[str, ...]) -> st.SearchStrategy[Case]:
         "samples": st.sampled_from((1, 2, 3, 64, 5000)),
         "coarsest_level": st.sampled_from((0, 5, 8)),
         "bandwidth_scale": st.sampled_from((0.0, 1e-3, 1.0)),
-        "interpolation": st.sampled_from(("auto", "image", "directions")),
         "pilots": st.sampled_from((4, 16)),
         "transport": st.sampled_from(("correlated", "box")),
         "variance": st.sampled_from(("moments", "printed")),
@@ -118,8 +117,7 @@ def test_any_combination_is_finite_counted_and_repeats(
     assert stats.samples == frame.sample_count.sum()
     assert stats.saturated_pixels == (frame.bandwidth_image[seen] == 0.5).sum()
     assert frame.bandwidth_image.max() <= 0.5
-    if frame["interpolation"] != "directions":
-        assert (frame.shaded[seen & (frame.bandwidth_image == 0.5)] == 1).all()  # nothing may be interpolated there
+    assert (frame.shaded[seen & (frame.bandwidth_image == 0.5)] == 1).all()  # nothing may be interpolated there
     assert ((frame.sample_count > 0) == (frame.shaded > 0)).all()
 
 

@@ -54,7 +54,7 @@ def exact(normals, pixels):
     return irradiance / np.pi * (ALBEDO @ LUMINANCE)
 
 
-@pytest.mark.parametrize("settings", [{"target_error": 0.1}, {"target_error": 0.03}, {"target_error": 0.1, "interpolation": "directions"}])
+@pytest.mark.parametrize("settings", [{"target_error": 0.1}, {"target_error": 0.03}])
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_asked_is_reached(context, name, settings):
     pixels, mesh, segments, transform, eye = SCENES[name]

@@ -107,7 +107,7 @@ def test_curvature_is_the_larger_of_two(context, lights, materials):
 @pytest.mark.parametrize("scale", [0.1, 1, 3])
 @pytest.mark.parametrize("material", ["mirror", "matte"])
 def test_a_level_is_the_coarsest_spacing_that_nyquist_allows(context, lights, materials, material, scale):
-    frame = rendered(context, lights[0], materials[material], 1, 3, interpolation="image", bandwidth_scale=scale, coarsest_level=4)
+    frame = rendered(context, lights[0], materials[material], 1, 3, bandwidth_scale=scale, coarsest_level=4)
     seen = frame.material > 0
     image, level = frame.bandwidth_image[seen].astype(float), frame.level[seen]
     # log2 errs by 3 units of up to 2^-21 below 8 (GLSL 4.50, 4.7.1), its argument by three roundings: 10 EPSILON of the bandwidth.

@@ -32,7 +32,7 @@ def rendered(context, environment, build, coarsest_level):
     scene.environment = environment
     up = build(context, scene)
     scene.camera(EYE, (0, 0, 0), up, 0.6)
-    frame = context.frame(SIDE, SIDE, interpolation="image", bandwidth_scale=0.2, coarsest_level=coarsest_level, samples=1, sampler="brdf",
+    frame = context.frame(SIDE, SIDE, bandwidth_scale=0.2, coarsest_level=coarsest_level, samples=1, sampler="brdf",
                           sequence="random")
     frame.render(scene)
     right = np.cross(-EYE, up)

@@ -20,7 +20,6 @@ _Integer: TypeAlias = Literal["samples", "max_samples", "coarsest_level", "pilot
 _Real: TypeAlias = Literal["target_error", "time_budget", "bandwidth_scale"]
 _Choice: TypeAlias = Literal[
     "method",
-    "interpolation",
     "transport",
     "band_rule",
     "variance",
@@ -39,7 +38,6 @@ class _Settings(TypedDict, total=False):
     samples: SupportsFloat
     max_samples: SupportsFloat
     bandwidth_scale: SupportsFloat
-    interpolation: Literal["auto", "directions", "image"]
     coarsest_level: SupportsFloat
     pilots: SupportsFloat
     transport: Literal["correlated", "box"]
@@ -422,21 +420,8 @@ class Frame:
     def bandwidth_image(self) -> _Floats:
         """float32, height x width: cycles/pixel, at most 0.5 (eq. 6)."""
     @property
-    def bandwidth_reflected(self) -> _Floats:
-        """float32, height x width: cycles/radian of the mirror direction, of the light that the lobe keeps.
-
-        Larger towards grazing angles. 0 in a frame that did not interpolate over directions.
-        """
-    @property
     def level(self) -> _Bytes:
         """uint8, height x width: log2 of the spacing at which the pixel may be shaded (eq. 11, Nyquist)."""
-    @property
-    def cell_level(self) -> _Bytes:
-        """uint8, height x width: log2 of the cells that the pixel asks for.
-
-        They lie along a side of the square of mirror directions; 15 where it asks for finer ones than there are. 0 in a
-        frame that did not interpolate over directions.
-        """
     @property
     def shaded(self) -> _Bytes:
         """uint8, height x width: 1 where the integral was computed; 0: interpolated, or nothing seen."""

@@ -86,9 +86,7 @@ STYLES = {
     "bandwidth_spatial": FieldStyle("Spatial bandwidth", "log", "inferno"),
     "bandwidth_angular": FieldStyle("Angular bandwidth", "log", "inferno"),
     "bandwidth_image": FieldStyle("Image bandwidth", "log", "inferno"),
-    "bandwidth_reflected": FieldStyle("Bandwidth over mirror directions", "log", "inferno"),
     "level": FieldStyle("Level", "category", "viridis_r"),
-    "cell_level": FieldStyle("Level of cells", "category", "viridis"),
     "shaded": FieldStyle("Shaded", "yes or no"),
     "sample_count": FieldStyle("Samples", "log", "viridis"),
     "error": FieldStyle("Relative error, estimated", "log", "magma"),
@@ -97,10 +95,6 @@ STYLES = {
     "level_pyramid": FieldStyle("Pyramid of least levels", "category", "viridis_r"),
     "variance_pyramid": FieldStyle("Pyramid of greatest relative variances", "log", "magma"),
 }
-
-
-OVER_DIRECTIONS = ("bandwidth_reflected", "cell_level")
-"""Fields that hold zeros where a frame did not interpolate over directions."""
 
 
 class Picture(NamedTuple):
@@ -357,7 +351,7 @@ def draw_fields(
     """Draws the fields of a rendered frame on one sheet: each with title, unit and colour bar.
 
     path: file to write (.png, .pdf, .svg ...); None: none.
-    fields: their names, in order; None: all that the frame has, less those of interpolation over directions where it did without.
+    fields: their names, in order; None: all that the frame has.
     title: the heading; None: size, samples and time of the frame.
 
     Bandwidths, variances, curvature and sample counts are on logarithmic scales, zero white; light grey pixels see no
@@ -365,9 +359,6 @@ def draw_fields(
     """
     names = list(buffer_names() if fields is None else fields)
     arrays = {name: array for name in names if (array := read_field(frame, name, fields is not None)) is not None}
-    if fields is None and not arrays.get("cell_level", np.zeros(1)).any():  # it did not interpolate over directions
-        for name in OVER_DIRECTIONS:
-            arrays.pop(name, None)
     seen = frame.material != 0
     panels = [name for name in arrays if not name.endswith("_pyramid")]
     pyramids = {name: frame.pyramid(name)[:MOST_LEVELS] for name in arrays if name.endswith("_pyramid")}
