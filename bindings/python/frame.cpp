@@ -145,6 +145,10 @@ py::object stats(const Frame& self) {
     return call_python(py::module_::import("lightband._records").attr("FrameStats"), values);
 }
 
+py::str plan_for(const Frame& self, const Scene& scene) {
+    return to_str(in_library([&] { return self.handle.plan(scene.handle); }).c_str());
+}
+
 py::str plan(const Frame& self) {
     return to_str(in_library([&] { return self.handle.explain(); }).c_str());
 }
@@ -224,7 +228,9 @@ void bind_settings(const FrameClass& type) {
 
 void bind_results(const FrameClass& type) {
     define_property(type, "stats", &stats, "Counts and times of the last frame, a FrameStats.");
-    define_property(type, "plan", &plan, "The passes of the last frame as text, each with its reason and cost.");
+    define_property(type, "plan", &plan, R"(The passes that the last render ran, as text: each with its reason, bytes and invocations.
+
+Where the setting pass_times is "on", with its milliseconds as well.)");
     define(type, "save(self, path, fields=None, exposure=0.0, tone_curve='none', alpha='coverage')", &save,
            R"(Writes the frame to a file, which is complete or, on any failure, what it was before.
 
@@ -272,6 +278,9 @@ progress: called between parts of the frame with the fraction of the call's time
 
 Other threads run meanwhile, and Ctrl-C raises KeyboardInterrupt at the next part. After any failure the frame
 holds what it held before.)");
+    define(type, "plan_for(self, scene)", &plan_for, R"(What render would do for a scene, as text: one line for each pass.
+
+Each with the device memory that it fills, its reason, and the buffers that it reads and writes. Nothing runs.)");
     bind_settings(type);
     bind_results(type);
     define(

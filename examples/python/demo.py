@@ -63,7 +63,7 @@ def main() -> None:
     print(f"rendering on {context.device_name}")
     scene = build_scene(context)
     size = arguments.width, arguments.width * 3 // 8
-    frame = context.frame(*size, target_error=arguments.error, background="environment")
+    frame = context.frame(*size, target_error=arguments.error, background="environment", pass_times="on")
     for what in ("first frame, with its tables", "second, with the driver's last compilations", "adaptive"):
         frame.render(scene, progress=show_progress(what))
     # Every pixel shaded, and many samples: what the error is measured against.

@@ -30,7 +30,7 @@ scene.add(context.builtin_mesh("knot"), context.builtin_brdf("rough-gold"), left
 scene.add(context.builtin_mesh("sphere"), context.builtin_brdf("blue-rubber"), right)
 
 # The picture, at 64 light samples per shaded pixel on average.
-frame = context.frame(512, 320, samples=64, background="environment")
+frame = context.frame(512, 320, samples=64, background="environment", pass_times="on")
 frame.render(scene, progress=lambda fraction: print(f"\r{100 * fraction:3.0f} %", end=""))
 print(f"\ron {context.device_name}\n{frame.plan}")
 

@@ -354,7 +354,7 @@ typedef struct lb_frame_stats {
     uint64_t bent_normals;       /* covered pixels whose shading normal faced away and was turned to the eye */
     uint64_t device_bytes;       /* device memory held by the scene and this frame */
     double milliseconds;         /* whole render call */
-    double bandwidth_milliseconds; /* of it: everything beside shading and geometry (bandwidth, audits, lists, interpolation, estimate) */
+    double bandwidth_milliseconds; /* of it: the prediction of bandwidth and variance (0 in a frame of method "reference") */
     double shading_milliseconds;   /* of it: the shading integral */
     double error;                  /* relative error of the frame, as the frame itself estimates it (docs/conventions.md):
                                       root of the squares of the three parts: noise,
@@ -378,9 +378,16 @@ typedef struct lb_frame_stats {
 /* LB_ERROR_INVALID_STATE before the first successful render. */
 LB_API lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats);
 
-/* The plan of the last frame as text: one line per pass with its reason, milliseconds, bytes and invocations.
- * Writes at most size bytes including the final 0 and stores the size needed in *needed (may be NULL).
- * text may be NULL when size is 0. */
+/* The plan of a frame, as text: what lb_frame_render would do for this scene, one line for each pass with the device memory that
+ * it fills, its reason, the settings that choose its programs, and the buffers that it reads and writes. A pass that the frame does
+ * not need is not in it. Nothing runs and nothing is allocated on the device. Passes "control", "pilot", "recheck", "replace",
+ * "pyramids", "upsample" and "combine" may turn out not to pay while the frame runs; lb_frame_explain tells which passes ran.
+ * Writes at most size bytes including the final 0 and stores the size needed in *needed (may be NULL). text may be NULL when size
+ * is 0. Errors: those of lb_frame_render that do not depend on the device. */
+LB_API lb_result lb_frame_plan(lb_frame frame, lb_scene scene, char* text, size_t size, size_t* needed);
+
+/* What the last frame did, as text: one line for each pass that ran, with bytes, invocations, reason and what was found out; where
+ * the setting "pass_times" is "on", with its milliseconds as well. Text, size and needed are those of lb_frame_plan. */
 LB_API lb_result lb_frame_explain(lb_frame frame, char* text, size_t size, size_t* needed);
 
 /* ---- Buffers ------------------------------------------------------------------------------------ */

@@ -308,13 +308,13 @@ public:
         check(lb_frame_info(get(), &stats));
         return stats;
     }
-    // The plan of the last frame: one line per pass.
+    // What a render of this scene would do: one line for each pass.
+    std::string plan(const Scene& scene) const {
+        return text_of([&](char* text, size_t size, size_t* needed) { return lb_frame_plan(get(), scene.get(), text, size, needed); });
+    }
+    // What the last render did: one line for each pass that ran.
     std::string explain() const {
-        size_t needed = 0;  // with the final 0
-        check(lb_frame_explain(get(), nullptr, 0, &needed));
-        std::vector<char> text(needed);
-        check(lb_frame_explain(get(), text.data(), text.size(), &needed));
-        return std::string(text.data());
+        return text_of([&](char* text, size_t size, size_t* needed) { return lb_frame_explain(get(), text, size, needed); });
     }
     Buffer map(const std::string& name) const { return map_field(lb_frame_map, get(), name, log()); }
 
@@ -330,6 +330,15 @@ public:
     }
 
 private:
+    template <class Write>
+    std::string text_of(Write write) const {
+        size_t needed = 0;  // with the final 0
+        check(write(nullptr, size_t(0), &needed));
+        std::vector<char> text(needed);
+        check(write(text.data(), text.size(), &needed));
+        return std::string(text.data());
+    }
+
     // Carries an exception of the callback past the C code.
     struct ProgressCall {
         const Progress& progress;

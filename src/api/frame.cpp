@@ -9,6 +9,20 @@
 using namespace lightband;
 using namespace lightband::api;
 
+namespace {
+
+void write_text(const std::string& whole, char* text, size_t size, size_t* needed) {
+    if (size > 0) {
+        require(text, "text");
+        const size_t length = std::min(whole.size(), size - 1);
+        std::memcpy(text, whole.data(), length);
+        text[length] = 0;
+    }
+    if (needed != nullptr) *needed = whole.size() + 1;
+}
+
+}  // namespace
+
 extern "C" {
 
 lb_result lb_frame_create(lb_context context, uint32_t width, uint32_t height, lb_frame* frame) {
@@ -90,18 +104,20 @@ lb_result lb_frame_info(lb_frame frame, lb_frame_stats* stats) {
     });
 }
 
+lb_result lb_frame_plan(lb_frame frame, lb_scene scene, char* text, size_t size, size_t* needed) {
+    return border([&] {
+        const auto target = frames().get(frame, "frame");
+        const auto source = scenes().get(scene, "scene");
+        const auto locked = target->device()->lock();
+        write_text(target->plan(*source), text, size, needed);
+    });
+}
+
 lb_result lb_frame_explain(lb_frame frame, char* text, size_t size, size_t* needed) {
     return border([&] {
         const auto source = frames().get(frame, "frame");
         const auto locked = source->device()->lock();
-        const std::string plan = source->explain();
-        if (size > 0) {
-            require(text, "text");
-            const size_t length = std::min(plan.size(), size - 1);
-            std::memcpy(text, plan.data(), length);
-            text[length] = 0;
-        }
-        if (needed != nullptr) *needed = plan.size() + 1;
+        write_text(source->explain(), text, size, needed);
     });
 }
 
@@ -113,10 +129,10 @@ lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_b
     });
 }
 
-uint32_t lb_frame_buffer_count(void) { return uint32_t(std::size(Frame::field_names)); }
+uint32_t lb_frame_buffer_count(void) { return uint32_t(std::size(field_names)); }
 
 const char* lb_frame_buffer_name(uint32_t index) {
-    return index < std::size(Frame::field_names) ? Frame::field_names[index].name : nullptr;
+    return index < std::size(field_names) ? field_names[index].name : nullptr;
 }
 
 lb_result lb_frame_save(lb_frame frame, const char* path, const lb_save_desc* desc) {

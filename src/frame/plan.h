@@ -1,47 +1,54 @@
-// What a frame did: each pass with its reason, time, memory and size. Written as the frame runs.
+// What a frame will do: a list of passes that follows from scene and settings, before anything runs (docs/how-a-frame-is-made.md). A frame
+// runs what its plan holds and nothing else.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "gl/device.h"
+#include "picture/settings.h"
 
 namespace lightband {
 
+// What a plan needs to know of a scene, and of the picture that is made of it.
+struct PlanInput {
+    uint32_t width, height;
+    size_t instances, materials;
+};
+
+struct PlannedPass {
+    std::string name, reason;
+    std::string variant;                     // the settings that choose the pass's programs: "name=choice ..."
+    std::vector<std::string> reads, writes;  // buffers of the frame, by name: frame_buffers
+    uint64_t bytes = 0;                      // of the buffers that no pass before it writes
+};
+
 class Plan {
 public:
-    struct Pass {
-        std::string name, reason;
-        double milliseconds;
-        uint64_t bytes;        // device memory that the pass fills
-        uint64_t invocations;  // pixels, list entries or light samples
-        std::string unit;      // of invocations
-    };
+    Plan(const Settings& settings, const PlanInput& input);
 
-    explicit Plan(const gl::Functions& gl) : gl_(gl), begun_(Clock::now()), mark_(begun_) {}
-
-    // Waits for the device and books the time since the last call on this pass.
-    void finished(const char* name, const std::string& reason, uint64_t bytes, uint64_t invocations, const char* unit);
-
-    // Corrects what a pass did, where that is known only later.
-    void count(const char* name, uint64_t invocations);
-
-    const std::vector<Pass>& passes() const { return passes_; }
-    double total_milliseconds() const { return milliseconds(begun_, mark_); }
-    double milliseconds_of(const std::vector<std::string>& names) const;
+    const std::vector<PlannedPass>& passes() const { return passes_; }
+    const PlannedPass* find(std::string_view name) const;  // null: the frame does not need it
+    // One line for each pass: name, bytes, what it reads and writes, variant, reason.
     std::string text() const;
 
 private:
-    using Clock = std::chrono::steady_clock;
-    static double milliseconds(Clock::time_point from, Clock::time_point to) {
-        return std::chrono::duration<double, std::milli>(to - from).count();
-    }
-
-    const gl::Functions& gl_;
-    Clock::time_point begun_, mark_;
-    std::vector<Pass> passes_;
+    std::vector<PlannedPass> passes_;
 };
+
+// The device memory of a frame (picture/targets.h), by the names that plans use.
+struct FrameBuffer {
+    const char* name;
+    uint32_t bytes;  // of a pixel; of a list, at most
+    bool pyramid;    // whether coarser levels lie below the picture
+};
+constexpr FrameBuffer frame_buffers[] = {
+    {"surface", 16, false},      {"material", 1, false}, {"depth", 4, false},       {"covered", 4, false},
+    {"bandwidth", 16, false},    {"prediction", 8, false}, {"levels", 1, true},     {"variances", 4, true},
+    {"weights", 8, false},       {"decision", 1, false}, {"sample_count", 4, false}, {"shading_list", 4, false},
+    {"radiance", 16, false},     {"spread", 16, false},
+};
+uint64_t bytes_of(const FrameBuffer& buffer, const PlanInput& input, uint32_t coarsest_level);
 
 }  // namespace lightband

@@ -31,7 +31,7 @@ enum Place {
     place_method, place_target_error, place_time_budget, place_samples, place_max_samples, place_bandwidth_scale,
     place_coarsest_level, place_pilots,
     place_transport, place_band_rule, place_variance, place_allocation, place_sampler, place_sequence, place_brdf_lookup,
-    place_environment_lookup, place_background, place_seed, place_accumulate, place_count
+    place_environment_lookup, place_background, place_seed, place_accumulate, place_pass_times, place_count
 };
 
 const lb_setting_info table[] = {
@@ -82,6 +82,8 @@ const lb_setting_info table[] = {
     integer("seed", 0, 4294967295.0, 0, "Frames with different seeds are independent; equal seeds give equal frames."),
     integer("accumulate", 1, 1 << 20, 1,
             "Frames rendered with successive seeds and averaged in double precision. 1 where an error or a time is asked for."),
+    choice_of("pass_times", "off|on", "off",
+              "on: every pass is waited for, so that lb_frame_explain knows how long each took. It costs some percent of a short frame."),
 };
 
 static_assert(std::size(table) == place_count);
@@ -191,5 +193,6 @@ double Settings::bandwidth_scale() const { return values_[place_bandwidth_scale]
 uint32_t Settings::seed() const { return uint32_t(values_[place_seed]); }
 uint32_t Settings::accumulate() const { return uint32_t(values_[place_accumulate]); }
 bool Settings::background() const { return values_[place_background] != 0; }
+bool Settings::pass_times() const { return values_[place_pass_times] != 0; }
 
 }  // namespace lightband

@@ -52,6 +52,7 @@ public:
     uint32_t seed() const;
     uint32_t accumulate() const;
     bool background() const;
+    bool pass_times() const;
 
 private:
     std::array<double, 32> values_;  // a number, or a choice's place among its choices

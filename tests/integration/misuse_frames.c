@@ -215,6 +215,22 @@ static void nothing_is_told_before_the_first_picture(void** state) {
     assert_ok(lb_frame_release(frame));
 }
 
+static void plan_is_known_before_the_first_picture(void** state) {
+    (void)state;
+    lb_frame frame = NULL;
+    char text[8192];
+    size_t needed = 0;
+    assert_ok(lb_frame_create(world.context, 8, 8, &frame));
+    assert_ok(lb_frame_plan(frame, world.scene, text, sizeof text, &needed));
+    assert_int_equal(needed, strlen(text) + 1);
+    assert_non_null(strstr(text, "upsample"));
+    assert_ok(lb_frame_set_number(frame, "coarsest_level", 0));
+    assert_ok(lb_frame_plan(frame, world.scene, text, sizeof text, &needed));
+    assert_null(strstr(text, "upsample"));
+    assert_refused(lb_frame_plan(frame, NULL, text, sizeof text, &needed), LB_ERROR_INVALID_HANDLE, "scene");
+    assert_ok(lb_frame_release(frame));
+}
+
 static void plan_is_written_as_far_as_it_fits(void** state) {
     (void)state;
     size_t needed = 0;
@@ -526,6 +542,7 @@ int main(void) {
         cmocka_unit_test_teardown(frame_size_has_limits, world_renders_as_before),
         cmocka_unit_test_teardown(small_and_odd_frames_render, world_renders_as_before),
         cmocka_unit_test_teardown(nothing_is_told_before_the_first_picture, world_renders_as_before),
+        cmocka_unit_test_teardown(plan_is_known_before_the_first_picture, world_renders_as_before),
         cmocka_unit_test_teardown(plan_is_written_as_far_as_it_fits, world_renders_as_before),
         cmocka_unit_test_teardown(settings_describe_themselves, world_renders_as_before),
         cmocka_unit_test_teardown(number_must_be_in_range, world_renders_as_before),

@@ -74,6 +74,7 @@ CALL(lb_frame_get_choice, (handle, "method", &out.text))
 CALL(lb_frame_set_choice, (handle, "method", "reference"))
 CALL(lb_frame_render, (handle, world.scene, NULL, NULL))
 CALL(lb_frame_info, (handle, &out.frame_stats))
+CALL(lb_frame_plan, (handle, world.scene, NULL, 0, &out.needed))
 CALL(lb_frame_explain, (handle, NULL, 0, &out.needed))
 CALL(lb_frame_map, (handle, "color", &out.buffer, &out.view))
 CALL(lb_frame_save, (handle, "never_written.exr", NULL))
@@ -134,6 +135,7 @@ static const struct call {
     {"lb_frame_set_choice", FRAME, with_lb_frame_set_choice},
     {"lb_frame_render", FRAME, with_lb_frame_render},
     {"lb_frame_info", FRAME, with_lb_frame_info},
+    {"lb_frame_plan", FRAME, with_lb_frame_plan},
     {"lb_frame_explain", FRAME, with_lb_frame_explain},
     {"lb_frame_map", FRAME, with_lb_frame_map},
     {"lb_frame_save", FRAME, with_lb_frame_save},

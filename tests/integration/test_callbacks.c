@@ -76,6 +76,7 @@ CALL(lb_frame_get_choice, world.frame, "method", &string)
 CALL(lb_setting_at, 0, &setting)
 CALL(lb_frame_render, world.frame, world.scene, NULL, NULL)
 CALL(lb_frame_info, world.frame, &frame_stats)
+CALL(lb_frame_plan, world.frame, world.scene, NULL, 0, &size)
 CALL(lb_frame_explain, world.frame, NULL, 0, &size)
 CALL(lb_frame_map, world.frame, "color", (lb_buffer*)&made, &view)
 CALL(lb_frame_save, world.frame, "never-written.exr", NULL)
@@ -96,7 +97,7 @@ static const struct {
     ENTRY(lb_scene_set_environment), ENTRY(lb_scene_set_camera), ENTRY(lb_scene_add), ENTRY(lb_scene_set_transform),
     ENTRY(lb_scene_set_double_sided), ENTRY(lb_frame_create), ENTRY(lb_frame_set_number), ENTRY(lb_frame_set_choice),
     ENTRY(lb_frame_get_number), ENTRY(lb_frame_get_choice), ENTRY(lb_setting_at), ENTRY(lb_frame_render), ENTRY(lb_frame_info),
-    ENTRY(lb_frame_explain), ENTRY(lb_frame_map), ENTRY(lb_frame_save),
+    ENTRY(lb_frame_plan), ENTRY(lb_frame_explain), ENTRY(lb_frame_map), ENTRY(lb_frame_save),
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 

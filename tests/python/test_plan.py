@@ -28,7 +28,7 @@ def passes(frame):
 
 def test_an_adaptive_frame(context, sphere):
     frame = rendered(context, sphere, samples=16)
-    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "audit", "probe", "recheck", "pyramids", "classify", "list",
+    assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "control", "pilot", "recheck", "pyramids", "classify", "list",
                              "shade", "upsample", "estimate", "combine"]
     assert frame.stats.rounds == 1
 
@@ -60,14 +60,14 @@ def test_rounds_repeat_passes_and_add_none(context, sphere):
     frame = rendered(context, sphere, time_budget=400)
     for _ in range(4):  # in the first frames tables and the driver's compiler take what there is
         frame.render(sphere)
-        if frame.stats.rounds == 2 and "audit" in passes(frame):
+        if frame.stats.rounds == 2 and "control" in passes(frame):
             break
     assert frame.stats.rounds == 2
     once = passes(rendered(context, sphere, samples=16))
-    # Where time is short there is none for a probe; where it is plenty, every pixel is shaded in the end.
+    # Where time is short there are no pilot samples; where it is plenty, every pixel is shaded in the end.
     names = passes(frame)
     assert [name for name in once if name in names] == names
-    assert set(once) - set(names) <= ({"probe", "upsample", "combine"} if frame.stats.shaded_pixels == frame.stats.covered_pixels else {"probe"})
+    assert set(once) - set(names) <= ({"pilot", "upsample", "combine"} if frame.stats.shaded_pixels == frame.stats.covered_pixels else {"pilot"})
     assert passes(rendered(context, sphere, target_error=0.1)) == once
 
 
@@ -107,3 +107,23 @@ def test_a_pixel_that_sees_nothing_is_in_no_list(context, sphere):
     for line in frame.plan.splitlines():
         if line.split()[0] in ("bandwidth", "classify", "upsample"):
             assert f" {frame.stats.covered_pixels} pixels" in line
+
+
+@pytest.mark.parametrize("settings", [{}, {"allocation": "constant_variance"}, {"coarsest_level": 0}, {"method": "reference"}], ids=str)
+def test_a_plan_foretells_passes_and_bytes(context, sphere, settings):
+    """Of the lists it knows how many pixels they may hold at most, 4 bytes each."""
+    def planned_bytes(frame):
+        return sum(float(line[12:].split()[0]) for line in frame.plan_for(sphere).splitlines()) * 1e6
+
+    frames = [context.frame(side, side, samples=16, background="environment", **settings) for side in (64, 128)]
+    plans = [frame.plan_for(sphere) for frame in frames]
+    planned = np.diff([planned_bytes(frame) for frame in frames])[0]
+    for frame in frames:
+        frame.render(sphere)
+    held = np.diff([frame.stats.device_bytes for frame in frames])[0]
+    lists = np.diff([4 * (frame.stats.covered_pixels + frame.stats.shaded_pixels) for frame in frames])[0]
+    assert planned - 2 * 4 * (128**2 - 64**2) == pytest.approx(held - lists, abs=2e4 * len(plans[0].splitlines()))  # two decimals of a MB
+    for frame, plan in zip(frames, plans):
+        names = [line.split()[0] for line in plan.splitlines()]
+        assert set(passes(frame)) <= set(names) and set(names) - set(passes(frame)) <= {"replace"}
+        assert frame.plan_for(sphere) == plan

@@ -29,6 +29,7 @@ _Choice: TypeAlias = Literal[
     "brdf_lookup",
     "environment_lookup",
     "background",
+    "pass_times",
 ]
 
 class _Settings(TypedDict, total=False):
@@ -51,6 +52,7 @@ class _Settings(TypedDict, total=False):
     background: Literal["none", "environment"]
     seed: SupportsFloat
     accumulate: SupportsFloat
+    pass_times: Literal["off", "on"]
 
 __version__: str
 
@@ -362,12 +364,20 @@ class Frame:
         Other threads run meanwhile, and Ctrl-C raises KeyboardInterrupt at the next part. After any failure the frame
         holds what it held before.
         """
+    def plan_for(self, scene: Scene) -> str:
+        """What render would do for a scene, as text: one line for each pass.
+
+        Each with the device memory that it fills, its reason, and the buffers that it reads and writes. Nothing runs.
+        """
     @property
     def stats(self) -> FrameStats:
         """Counts and times of the last frame, a FrameStats."""
     @property
     def plan(self) -> str:
-        """The passes of the last frame as text, each with its reason and cost."""
+        """The passes that the last render ran, as text: each with its reason, bytes and invocations.
+
+        Where the setting pass_times is "on", with its milliseconds as well.
+        """
     def save(
         self,
         path: _Path,

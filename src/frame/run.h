@@ -1,0 +1,77 @@
+// One render call: runs the passes of a frame's plan, in rounds where an error or a time is asked for (docs/how-a-frame-is-made.md).
+#pragma once
+
+#include <string_view>
+
+#include "frame/control_subset.h"
+#include "frame/redraw.h"
+#include "frame/run_state.h"
+#include "passes/classify.h"
+#include "passes/shade.h"
+
+namespace lightband {
+
+class Run {
+public:
+    Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Pace& pace,
+        const Progress& progress);
+
+    // Throws where the progress callback cancels.
+    void execute();
+    std::shared_ptr<const FrameResult> result() const { return state_.result; }
+    const Pace& pace() const { return state_.pace; }  // of the device, as the rounds have measured it
+
+private:
+    struct NamedPass {
+        const char* name;
+        Done (*run)(Run&);
+    };
+    static const NamedPass passes_by_name[];
+    // Runs a pass and records what it did; nothing where the plan does not hold it.
+    void pass(std::string_view name);
+
+    Done geometry();
+    Done list_covered();
+    Done make_tables();
+    Done predict();
+    Done make_levels();
+    Done classify();
+    Done list_shaded();
+    Done shade();
+    Done upsample();
+    Done estimate();
+    Done combine();
+    Done background();
+
+    void examine_control_subset();
+    void begin_rounds();
+    bool rounds();
+    bool plan_round(Control* control);
+    void decide(Control* control);
+    void accumulate();
+    void finish();
+    double expected_shading() const;
+    void report_preparation();
+    void report_shading(double samples);
+    FrameResult& next() { return *state_.result; }
+
+    RunState state_;
+    ControlSubset subset_{state_};
+
+    // Of the round that runs.
+    const Control* control_ = nullptr;
+    std::vector<float> scales_;   // of the levels as they are
+    Tiles tiles_;                 // empty where nothing is interpolated
+    passes::Counts counts_;
+    passes::ShadingList list_;
+    passes::Seeds seeds_{};
+    RoundPixels pixels_;          // as the last round left them
+    Redraw redraw_;               // what a further round knows of it
+    double grown_ = 1;            // samples of shaded pixels, all together, since they were first drawn
+    Redrawing drawn_;             // of the last round, as planned
+    uint64_t samples_ = 0;        // of the picture as it is
+    RoundCost cost_;              // of the last round
+    double further_ = 0;          // times as long as a round's shading is expected to be done after it
+};
+
+}  // namespace lightband
