@@ -77,13 +77,20 @@ Device::Device(uint32_t device, lb_log_callback callback, void* user) : log_(cal
 }
 
 // Compilers have static objects that they make when they first compile and destroy by exit handlers: made before the library's own handler
-// is registered, they are destroyed after it has brought contexts to rest.
+// is registered, they are destroyed after it has brought contexts to rest. A triangle is drawn rather than a program dispatched: llvmpipe
+// may find programs in its cache on disk, but compiles in every process how triangles are set up.
 void Device::warm_up() {
-    const float value = 0;
-    const Buffer buffer(gl(), sizeof value, &value);
-    compute("warm_up").use();
-    gl().BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.name());
-    gl().DispatchCompute(1, 1, 1);
+    const Texture image = Texture::image(gl(), GL_RGBA16F, 1, 1);
+    const Framebuffer framebuffer(gl());
+    gl().NamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, image.name(), 0);
+    gl().BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    const uint32_t corners[] = {0, 1, 2};
+    const Buffer indices(gl(), sizeof corners, corners);
+    const VertexArray vertices(gl());
+    gl().VertexArrayElementBuffer(vertices.name(), indices.name());
+    gl().BindVertexArray(vertices.name());
+    graphics("warm_up").use();
+    gl().DrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_INT, nullptr);
     gl().Finish();
     contents_.programs.clear();
 }

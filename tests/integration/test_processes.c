@@ -1,5 +1,7 @@
 /* What hosts do with their process: forks, and ends while threads are inside the library. */
+#include <dlfcn.h>
 #include <pthread.h>
+#include <stdatomic.h>
 
 #include "process.h"
 
@@ -155,12 +157,9 @@ static void* sleep_in_a_callback(void* unused) {
 static void* (*thread_at_exit)(void*);
 static int milliseconds_to_exit;
 
-/* A picture is drawn first: what the driver's compiler registers for exit while it compiles for the first time runs before the library's
- * own handler (docs/decisions/0015). */
 static void end_while_a_thread_is_inside(void) {
     pthread_t thread;
     make_picture_objects(&world);
-    draw_picture(&world, picture, NULL);
     must(pthread_create(&thread, NULL, thread_at_exit, NULL) == 0);
     usleep((useconds_t)milliseconds_to_exit * 1000);
 }
@@ -187,6 +186,54 @@ static void exit_in_a_callback_child(void) {
     _exit(1);
 }
 IN_PROCESS(exit_in_a_callback)
+
+/* Takes the place of the C library's function, for this program and for all libraries it loads: counts the exit handlers that others than
+ * liblightband register. */
+static atomic_int foreign_exit_handlers;
+
+__attribute__((visibility("default"))) int __cxa_atexit(void (*function)(void*), void* object, void* library);
+int __cxa_atexit(void (*function)(void*), void* object, void* library) {
+    int (*next)(void (*)(void*), void*, void*) = NULL;
+    *(void**)&next = dlsym(RTLD_NEXT, "__cxa_atexit");
+    uint32_t (*const version)(void) = lb_version;
+    Dl_info ours, its;
+    const int known = dladdr(*(void**)&version, &ours) != 0 && dladdr(library, &its) != 0;
+    if (!known || ours.dli_fbase != its.dli_fbase) ++foreign_exit_handlers;
+    return next(function, object, library);
+}
+
+/* The compiler of the driver registers the destruction of its static objects when it first compiles. If it did so while pictures are drawn,
+ * these objects would be destroyed before the library's exit handler has brought the threads to rest that use them. */
+static void draw_first_picture(void) {
+    make_picture_objects(&world);
+    foreign_exit_handlers = 0;
+    draw_picture(&world, picture, NULL);
+    must(foreign_exit_handlers == 0);
+}
+
+static void draw_pictures_of_all_methods(void) {
+    draw_first_picture();
+    must_ok(lb_frame_set_choice(world.frame, "method", "adaptive"));
+    draw_picture(&world, picture, NULL);
+    must_ok(lb_frame_set_number(world.frame, "target_error", 0.1));
+    draw_picture(&world, picture, NULL);
+    must(foreign_exit_handlers == 0);
+    release_picture_objects(&world);
+}
+
+/* The driver's cache of shaders is empty at first: the first process compiles all of them, the second none. */
+static void the_driver_registers_exit_handlers_before_the_first_picture(void** state) {
+    (void)state;
+    char folder[] = "/tmp/lightband-shaders-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    assert_int_equal(setenv("MESA_SHADER_CACHE_DIR", folder, 1), 0);
+    run_in_process(draw_pictures_of_all_methods);
+    run_in_process(draw_first_picture);
+    assert_int_equal(unsetenv("MESA_SHADER_CACHE_DIR"), 0);
+    char command[64 + sizeof folder];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
 
 /* Exit handlers run in reverse order. One that was registered after the first context runs while the driver is whole; to one that was
  * registered before, calls fail and releases do nothing. */
@@ -232,6 +279,7 @@ int main(void) {
         cmocka_unit_test(a_callback_may_fork),
         cmocka_unit_test(a_process_ends_while_threads_are_inside),
         cmocka_unit_test(exit_in_a_callback),
+        cmocka_unit_test(the_driver_registers_exit_handlers_before_the_first_picture),
         cmocka_unit_test(exit_handlers_may_call),
         cmocka_unit_test(exit_handlers_may_join_a_calling_thread),
     };
