@@ -31,10 +31,9 @@ double srgb(double linear) {
 }  // namespace
 
 double filmic(double radiance) {
-    // Beyond, the curve is closer to 1 than a double can tell, and squares would overflow later on.
-    constexpr double brightest = 1e15;
-    const double below_one = std::nextafter(1.0, 0.0);
-    return std::min(hable(std::clamp(radiance, 0.0, brightest) * (mid_grey_at / mid_grey)) / limit, below_one);
+    // Beyond, the curve is within 1e-12 of 1, and squares would overflow later on.
+    constexpr double brightest = 1e12;
+    return hable(std::clamp(radiance, 0.0, brightest) * (mid_grey_at / mid_grey)) / limit;
 }
 
 std::vector<uint8_t> to_srgb(const float* rgba, size_t pixels, const Display& display) {

@@ -148,15 +148,11 @@ Header parse_header(Reader& reader) {
     return header;
 }
 
-// XYZE is CIE XYZ, whose Y is in candelas per square metre (color.h: WHTEFFICACY lumens per watt of white light), and whose
-// primaries name the white alone. Without PRIMARIES, RGBE is Rec. 709, as everyone but Radiance writes it.
+// XYZE is CIE XYZ, whose Y is in candelas per square metre (color.h: WHTEFFICACY lumens per watt of white light). Its white is equal energy,
+// whatever PRIMARIES says, as in Radiance's ra_xyze. Without PRIMARIES, RGBE is Rec. 709, as everyone but Radiance writes it.
 void convert(const Header& header, const std::string& name, RgbImage* image) {
     constexpr double lumens_per_watt = 179;
-    Chromaticities from = header.primaries.value_or(rec709);
-    if (header.is_xyz) {
-        from = cie_xyz;
-        if (header.primaries) from.white = header.primaries->white;
-    }
+    const Chromaticities from = header.is_xyz ? cie_xyz : header.primaries.value_or(rec709);
     std::optional<glm::dmat3> matrix = to_rec709(from, std::nullopt, name);
     if (header.is_xyz) matrix = matrix.value_or(glm::dmat3(1)) / lumens_per_watt;
     if (matrix) convert_colours(*matrix, image);
