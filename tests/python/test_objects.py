@@ -229,15 +229,47 @@ def test_paths_of_any_kind(rendered: lightband.Frame, tmp_path: Path, kind: Call
     assert path.read_bytes().startswith(b"\x89PNG")
 
 
-def test_saved_color_is_loaded_again(context: lightband.Context, rendered: lightband.Frame, tmp_path: Path) -> None:
+def test_saved_color_is_loaded_again(
+    context: lightband.Context, environment: lightband.Environment, tmp_path: Path
+) -> None:
+    scene = context.scene()
+    scene.add(context.builtin_mesh("sphere", 32), context.lambert((0.2, 0.5, 0.8)))
+    scene.environment = environment
+    scene.camera(eye=(0, 0, 3), target=(0, 0, 0))
+    frame = context.frame(40, 24, samples=8)
+    frame.render(scene)
     path = tmp_path / "fields.exr"
-    rendered.save(path, fields=["color", "depth"])
-    np.testing.assert_array_equal(context.load_environment(path).radiance, rendered.color[..., :3])
+    frame.save(path, fields=["color", "depth"])
+    np.testing.assert_array_equal(context.load_environment(path).radiance, frame.color[..., :3])
     assert "fields.exr" in repr(context.load_environment(path))
 
 
-@pytest.mark.parametrize("fields", ["color,normal", ["color", "normal"], ("normal",), iter(["level", "shaded"])])
-def test_fields_to_save(rendered: lightband.Frame, tmp_path: Path, fields: object) -> None:
+CHANNELS = {
+    "color": [b"A", b"B", b"G", b"R"],
+    "normal": [b"normal.X", b"normal.Y", b"normal.Z"],
+    "level": [b"level.Y"],
+    "shaded": [b"shaded.Y"],
+}
+
+
+@pytest.mark.parametrize(
+    ("fields", "names"),
+    [
+        (None, ["color"]),
+        ("color,normal", ["color", "normal"]),
+        (["color", "normal"], ["color", "normal"]),
+        (("normal",), ["normal"]),
+        (iter(["level", "shaded"]), ["level", "shaded"]),
+    ],
+    ids=["None", "str", "list", "tuple", "iterator"],
+)
+def test_fields_to_save(rendered: lightband.Frame, tmp_path: Path, fields: object, names: list[str]) -> None:
     path = tmp_path / "fields.exr"
     rendered.save(path, fields=fields)  # type: ignore[arg-type]
-    assert path.stat().st_size > 0
+    # The header's list of channels: each a name that a zero ends, its pixel type, here 2 for float, and 12 further bytes.
+    listed = path.read_bytes().split(b"channels\0chlist\0")[1][4:]
+    expected = sorted(channel for name in names for channel in CHANNELS[name])
+    for channel in expected:
+        assert listed.startswith(channel + b"\0\2\0\0\0")
+        listed = listed[len(channel) + 1 + 16 :]
+    assert listed.startswith(b"\0")

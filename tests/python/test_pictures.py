@@ -189,6 +189,12 @@ def test_alpha_of_a_png(rendered: lightband.Frame, with_background: lightband.Fr
         np.testing.assert_allclose(png(with_background, tmp_path, alpha=alpha)[..., :3], shown, atol=0.51 / 255)
 
 
+def test_exposure_of_a_png(with_background: lightband.Frame, tmp_path: Path) -> None:
+    for stops in (-2, 1):
+        shown = pictures.srgb_encode((with_background.color[..., :3] * 2.0**stops).clip(0, 1))
+        np.testing.assert_allclose(png(with_background, tmp_path, exposure=stops)[..., :3], shown, atol=0.51 / 255)
+
+
 def test_highlights_of_a_png(with_background: lightband.Frame, tmp_path: Path) -> None:
     """The sky is 0.5 to 1.5 bright; three stops up, all of it is above 1."""
     clipped = png(with_background, tmp_path, exposure=3, alpha="opaque")[0, :, 0]
@@ -198,7 +204,10 @@ def test_highlights_of_a_png(with_background: lightband.Frame, tmp_path: Path) -
     assert sky.max() < 1 and len(np.unique(sky)) > 2 and (np.diff(sky) <= 0).all()
 
 
-def test_an_exr_says_how_it_was_made(rendered: lightband.Frame, tmp_path: Path) -> None:
+def test_an_exr_says_how_it_was_made(context: lightband.Context, scene: lightband.Scene, tmp_path: Path) -> None:
+    rendered = context.frame(40, 24, samples=8)
+    rendered.render(scene)
+    rendered["samples"] = 9  # for the next picture
     rendered.save(tmp_path / "frame.exr", fields=["color", "depth", "normal", "level"])
     header = (tmp_path / "frame.exr").read_bytes()[:8192]
     for channel in (b"A", b"B", b"G", b"R", b"Z", b"level.Y", b"normal.X", b"normal.Z"):
