@@ -3,6 +3,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export LIGHTBAND_STARTED=${LIGHTBAND_STARTED:-$EPOCHSECONDS}
+# One name for the compiler in every build: the Python package's own choice is g++, whose objects ccache keeps apart from those of c++.
+export CC=${CC:-cc} CXX=${CXX:-c++}
 
 step() {
     local elapsed=$((EPOCHSECONDS - LIGHTBAND_STARTED))
