@@ -1,13 +1,15 @@
-"""A device, a scene and a rendered frame that the tests share."""
+"""A device, objects of it, references and a rendered frame that the tests share."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import functools
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
 
 import lightband
+from support import Floats, SharedObjects, luminance, render_blob
 
 
 @pytest.fixture(scope="session")
@@ -15,6 +17,24 @@ def context() -> Iterator[lightband.Context]:
     """Software rendering: the tests ask the same of every machine."""
     with lightband.Context(device="software", cache_path="") as device:
         yield device
+
+
+@pytest.fixture(scope="session")
+def shared(context: lightband.Context) -> SharedObjects:
+    """The same context, for tests that render what others render, too."""
+    return SharedObjects(context)
+
+
+@pytest.fixture(scope="session")
+def blob_references(shared: SharedObjects) -> Callable[[str], list[Floats]]:
+    """Of the blob of a built-in material, two independent references: each without bias, of 8,192 samples a pixel."""
+
+    @functools.cache
+    def references(material: str) -> list[Floats]:
+        settings = {"samples": 8192, "coarsest_level": 0, "sampler": "combined"}
+        return [luminance(render_blob(shared, shared.builtin_brdf(material), seed=seed, **settings)) for seed in (91, 92)]
+
+    return references
 
 
 @pytest.fixture(scope="session")

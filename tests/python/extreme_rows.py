@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import lightband
+import support
 
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 ROUNDING = 2.0**-24  # of a float: half a unit in its last place
 HALF_LEAST, HALF_MOST = 6e-8, 65504.0
 
@@ -60,14 +60,12 @@ def scene_of(
 
 
 def rendered(context: lightband.Context, scene: lightband.Scene, side: int = 16, **settings: float | str) -> lightband.Frame:
-    frame = context.frame(side, side, **settings)
-    frame.render(scene)
-    return frame
+    return support.rendered(context, scene, side, side, **settings)
 
 
 def luminance(frame: lightband.Frame) -> Picture:
     """Of the covered pixels."""
-    return frame.color[frame.material > 0][:, :3].astype(np.float64) @ LUMINANCE
+    return support.luminance(frame)[frame.material > 0]
 
 
 def view_cosines(frame: lightband.Frame, eye: tuple[float, float, float]) -> Picture:

@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 
 import lightband
-from test_method import LUMINANCE, directions, light, render
-
-SIZE = 96, 80
-
-
-def luminance(frame):
-    return frame.color[..., :3].astype(np.float64) @ LUMINANCE
+from support import BLOB_SIZE, directions, light, luminance, render_blob, rendered
 
 
 def true_error(frame, a, b):
@@ -23,16 +17,14 @@ def true_error(frame, a, b):
 
 
 @pytest.fixture(scope="module", params=["rough-gold", "matte-fabric", "interference-paint"])
-def subject(request, context):
-    brdf = context.builtin_brdf(request.param)
-    references = [luminance(render(context, brdf, np.eye(3), samples=8192, seed=seed, coarsest_level=0, sampler="combined")) for seed in (91, 92)]
-    return brdf, references
+def subject(request, shared, blob_references):
+    return shared.builtin_brdf(request.param), blob_references(request.param)
 
 
 @pytest.mark.parametrize("asked", [0.1, 0.03, 0.01])
-def test_what_is_asked_is_reached_and_no_more(context, subject, asked):
+def test_what_is_asked_is_reached_and_no_more(shared, subject, asked):
     brdf, references = subject
-    frames = [render(context, brdf, np.eye(3), target_error=asked, seed=seed) for seed in (1, 2, 3)]
+    frames = [render_blob(shared, brdf, target_error=asked, seed=seed) for seed in (1, 2, 3)]
     got = np.array([true_error(frame, *references) for frame in frames])
     # What is promised: at most 1.5 times what was asked in any frame, at least half of it in the median (a frame of few pixels
     # cannot stop in the middle of a round, hence a third; and one that has the fewest samples everywhere cannot have fewer).
@@ -48,15 +40,15 @@ def test_what_is_asked_is_reached_and_no_more(context, subject, asked):
 @pytest.mark.parametrize("settings", [{"samples": 16}, {"samples": 256, "sampler": "combined"}, {"method": "reference", "samples": 64},
                                       {"samples": 64, "coarsest_level": 0}, {"samples": 16, "accumulate": 8},
                                       {"sampler": "brdf", "samples": 64}])
-def test_every_frame_knows_its_error(context, subject, settings):
+def test_every_frame_knows_its_error(shared, subject, settings):
     brdf, references = subject
-    frame = render(context, brdf, np.eye(3), seed=5, **settings)
+    frame = render_blob(shared, brdf, seed=5, **settings)
     assert frame.stats.error / 1.6 < true_error(frame, *references) < 1.6 * frame.stats.error
 
 
 @pytest.mark.parametrize("settings", [{"target_error": 0.05}, {"samples": 16, "accumulate": 8}])
-def test_the_field_is_the_number_pixel_by_pixel(context, subject, settings):
-    frame = render(context, subject[0], np.eye(3), **settings)
+def test_the_field_is_the_number_pixel_by_pixel(shared, subject, settings):
+    frame = render_blob(shared, subject[0], **settings)
     covered = frame.material > 0
     assert np.sqrt(np.mean(frame.error[covered].astype(np.float64) ** 2)) == pytest.approx(frame.stats.error, rel=1e-5)
     assert (frame.error[~covered] == 0).all() and (frame.error >= 0).all()
@@ -64,10 +56,10 @@ def test_the_field_is_the_number_pixel_by_pixel(context, subject, settings):
     assert parts == pytest.approx(frame.stats.error, rel=1e-12)
 
 
-def test_the_field_says_where_the_error_is(context, subject):
+def test_the_field_says_where_the_error_is(shared, subject):
     """Pixels in four groups by their estimated error: their true errors rise in the same order."""
     brdf, (a, b) = subject
-    frame = render(context, brdf, np.eye(3), samples=64, allocation="constant_variance", sampler="brdf", seed=6)
+    frame = render_blob(shared, brdf, samples=64, allocation="constant_variance", sampler="brdf", seed=6)
     covered = frame.material > 0
     reference = 0.5 * (a + b)
     squared = ((luminance(frame) - a) * (luminance(frame) - b) / (reference + 0.01 * reference[covered].mean()) ** 2)[covered]
@@ -76,9 +68,9 @@ def test_the_field_says_where_the_error_is(context, subject):
     assert errors[0] < errors[3]
 
 
-def test_a_frame_without_prediction_keeps_its_promise(context, subject):
+def test_a_frame_without_prediction_keeps_its_promise(shared, subject):
     """Its further rounds know of its pixels what former ones measured, and nothing else."""
-    frame = render(context, subject[0], np.eye(3), method="reference", sampler="combined", target_error=0.02)
+    frame = render_blob(shared, subject[0], method="reference", sampler="combined", target_error=0.02)
     covered = frame.material > 0
     assert frame.stats.rounds > 1
     assert frame.stats.shaded_pixels == covered.sum() == np.count_nonzero(frame.sample_count)
@@ -86,48 +78,48 @@ def test_a_frame_without_prediction_keeps_its_promise(context, subject):
     assert frame.stats.error <= 0.02
 
 
-def test_more_is_asked_more_is_drawn(context, subject):
-    frames = [render(context, subject[0], np.eye(3), target_error=asked) for asked in (0.1, 0.03, 0.01)]
+def test_more_is_asked_more_is_drawn(shared, subject):
+    frames = [render_blob(shared, subject[0], target_error=asked) for asked in (0.1, 0.03, 0.01)]
     assert frames[0].stats.samples < frames[1].stats.samples < frames[2].stats.samples
 
 
-def test_equal_seeds_give_equal_frames(context, subject):
-    first, second = (render(context, subject[0], np.eye(3), target_error=0.05, seed=8) for _ in range(2))
+def test_equal_seeds_give_equal_frames(shared, subject):
+    first, second = (render_blob(shared, subject[0], target_error=0.05, seed=8) for _ in range(2))
     assert np.array_equal(first.color, second.color) and first.stats.error == second.stats.error
 
 
-def test_a_time_is_spent(context, subject):
+def test_a_time_is_spent(shared, subject):
     """Not a measurement of speed: a budget of forty times another buys a better frame, from more samples, on a busy machine too."""
     for _ in range(2):  # drivers compile until a shader's second use, which may take longer than any budget
-        render(context, subject[0], np.eye(3), time_budget=400)
-    frames = [render(context, subject[0], np.eye(3), time_budget=budget) for budget in (40, 1600)]
+        render_blob(shared, subject[0], time_budget=400)
+    frames = [render_blob(shared, subject[0], time_budget=budget) for budget in (40, 1600)]
     assert frames[1].stats.samples > 2 * frames[0].stats.samples
     assert frames[1].stats.error < frames[0].stats.error
 
 
-def test_whichever_comes_first(context, subject):
+def test_whichever_comes_first(shared, subject):
     brdf = subject[0]
-    easy = render(context, brdf, np.eye(3), target_error=0.2, time_budget=1e6)
+    easy = render_blob(shared, brdf, target_error=0.2, time_budget=1e6)
     assert easy.stats.error <= 0.2
-    hard = render(context, brdf, np.eye(3), target_error=1e-5, time_budget=50)
+    hard = render_blob(shared, brdf, target_error=1e-5, time_budget=50)
     assert hard.stats.error > 1e-5
     assert 0 < hard.stats.samples < 0.1 * hard["max_samples"] * hard.stats.covered_pixels
 
 
-def test_an_error_cannot_be_asked_of_accumulated_frames(context, scene):
-    frame = context.frame(8, 8, target_error=0.1, accumulate=2)
+def test_an_error_cannot_be_asked_of_accumulated_frames(shared, scene):
+    frame = shared.frame(8, 8, target_error=0.1, accumulate=2)
     with pytest.raises(lightband.StateError, match="accumulate is 2.*target_error"):
         frame.render(scene)
 
 
-def test_witnesses_are_others_in_every_round(context):
+def test_witnesses_are_others_in_every_round(shared):
     """On levels that stay as they are, all that a round shades anew are its witnesses: some sixteenth of what is interpolated."""
-    scene = context.scene()
-    scene.environment = context.environment(light(directions()))
-    scene.add(context.builtin_mesh("blob", 128), context.builtin_brdf("interference-paint"))
+    scene = shared.scene()
+    scene.environment = shared.environment(light(directions()))
+    scene.add(shared.builtin_mesh("blob", 128), shared.builtin_brdf("interference-paint"))
     scene.camera(eye=(0.3, 0.4, 1.9), target=(0, 0, 0), fov_y=0.6)
     # Both tolerate as much contrast (3 %), so that their first rounds are alike.
-    frames = [context.frame(160, 128, target_error=asked, bandwidth_scale=0.2) for asked in (0.025, 0.01)]
+    frames = [shared.frame(160, 128, target_error=asked, bandwidth_scale=0.2) for asked in (0.025, 0.01)]
     for frame in frames:
         frame.render(scene)
     few, many = (frame.stats for frame in frames)
@@ -138,14 +130,14 @@ def test_witnesses_are_others_in_every_round(context):
 
 
 @pytest.mark.parametrize("size", [1, 2, 4, 8])
-def test_tiny_frames_know_their_bias(context, size):
+def test_tiny_frames_know_their_bias(shared, size):
     """Under constant light every sample of a cut errs alike, and no spread tells of it: all of so few pixels are audited. An audit shows
     what 1 / (1 + 0.3 / 4^1.2) of the square would be (src/frame/audit.cpp), and errs by as much as it foresees wrongly."""
-    scene = context.scene()
-    scene.environment = context.environment(np.ones((8, 16, 3), np.float32))
-    scene.add(context.builtin_mesh("plane"), context.lambert(0.5))
+    scene = shared.scene()
+    scene.environment = shared.environment(np.ones((8, 16, 3), np.float32))
+    scene.add(shared.builtin_mesh("plane"), shared.lambert(0.5))
     scene.camera(eye=(0, 0, 0.6), target=(0, 0, 0))
-    frame = context.frame(size, size)
+    frame = shared.frame(size, size)
     frame.render(scene)
     true = np.sqrt(np.mean(((luminance(frame) - 0.5) / 0.505) ** 2))
     assert frame.stats.audited_pixels == size * size
@@ -155,27 +147,27 @@ def test_tiny_frames_know_their_bias(context, size):
         assert true > 0.005 and true / 1.6 < frame.stats.error < 1.6 * true
 
 
-def test_a_black_frame_has_no_error(context):
-    scene = context.scene()
-    scene.environment = context.environment(np.zeros((4, 8, 3), np.float32))
-    scene.add(context.builtin_mesh("sphere", 32), context.lambert(0.5))
+def test_a_black_frame_has_no_error(shared):
+    scene = shared.scene()
+    scene.environment = shared.environment(np.zeros((4, 8, 3), np.float32))
+    scene.add(shared.builtin_mesh("sphere", 32), shared.lambert(0.5))
     scene.camera(eye=(0, 0, 3), target=(0, 0, 0))
-    frame = context.frame(16, 16, target_error=0.01)
+    frame = shared.frame(16, 16, target_error=0.01)
     frame.render(scene)
     assert frame.stats.error == 0 and frame.stats.rounds == 1 and not frame.error.any()
 
 
-def test_a_frame_that_sees_nothing_has_no_error(context):
-    scene = context.scene()
-    scene.environment = context.environment(light(directions()))
+def test_a_frame_that_sees_nothing_has_no_error(shared):
+    scene = shared.scene()
+    scene.environment = shared.environment(light(directions()))
     scene.camera(eye=(0, 0, 3), target=(0, 0, 0))
-    frame = context.frame(16, 16, target_error=0.01)
+    frame = shared.frame(16, 16, target_error=0.01)
     frame.render(scene)
     assert frame.stats.error == 0 and frame.stats.samples == 0
 
 
-def test_progress_of_rounds_never_goes_back(context, scene):
-    frame = context.frame(64, 64, target_error=0.01)
+def test_progress_of_rounds_never_goes_back(shared, scene):
+    frame = shared.frame(64, 64, target_error=0.01)
     seen = []
     frame.render(scene, progress=seen.append)
     assert seen == sorted(seen) and seen[0] == 0 and seen[-1] == 1
@@ -183,10 +175,10 @@ def test_progress_of_rounds_never_goes_back(context, scene):
         frame.render(scene, progress=lambda fraction: lightband.CANCEL if fraction > 0 else None)
 
 
-def test_progress_moves_while_a_frame_is_shaded(context, scene):
+def test_progress_moves_while_a_frame_is_shaded(shared, scene):
     """In dispatches of 2^23 samples at most, whatever the most is that a pixel might have."""
     for settings in ({"samples": 2048}, {"method": "reference", "samples": 2048}):
-        frame = context.frame(192, 192, coarsest_level=0, max_samples=1 << 16, **settings)
+        frame = shared.frame(192, 192, coarsest_level=0, max_samples=1 << 16, **settings)
         seen = []
         frame.render(scene, progress=seen.append)
         assert any(0.2 < fraction < 0.8 for fraction in seen)
@@ -196,15 +188,15 @@ def test_progress_moves_while_a_frame_is_shaded(context, scene):
         assert seen.count(1) <= 2  # at the end of the last dispatch, and of the frame
 
 
-def test_of_few_pixels_every_one_that_might_be_interpolated_is_looked_at(context):
+def test_of_few_pixels_every_one_that_might_be_interpolated_is_looked_at(shared):
     """Fewer witnesses than tell anything: in a second round all are, so that none is left to be interpolated unseen."""
-    scene = context.scene()
-    scene.environment = context.environment(np.random.default_rng(1).uniform(size=(16, 32, 3)).astype(np.float32) ** 4)
-    scene.add(context.builtin_mesh("sphere", 32), context.builtin_brdf("matte-fabric"))
+    scene = shared.scene()
+    scene.environment = shared.environment(np.random.default_rng(1).uniform(size=(16, 32, 3)).astype(np.float32) ** 4)
+    scene.add(shared.builtin_mesh("sphere", 32), shared.builtin_brdf("matte-fabric"))
     scene.camera(eye=(0, 0, 1.3), target=(0, 0, 0))
     again = 0
     for size, seed in ((10, 3), (12, 3), (14, 1), (14, 2), (16, 3)):
-        frame = context.frame(size, size, target_error=0.02, bandwidth_scale=0.2, seed=seed)
+        frame = shared.frame(size, size, target_error=0.02, bandwidth_scale=0.2, seed=seed)
         frame.render(scene)
         if frame.stats.rounds > 1:
             again += 1
@@ -212,19 +204,25 @@ def test_of_few_pixels_every_one_that_might_be_interpolated_is_looked_at(context
     assert again > 0
 
 
+@pytest.fixture(scope="module")
+def many_samples(shared):
+    """A material and what it shows, by many samples of every pixel."""
+    brdf = shared.ggx(0.3, (0.9, 0.7, 0.4))
+    return brdf, luminance(render_blob(shared, brdf, samples=16384, coarsest_level=0, sampler="combined", seed=7001))
+
+
 @pytest.mark.parametrize("samples", [1, 2, 3, 4, 5])
-def test_the_fewest_samples_are_unbiased(context, samples):
-    """One sample of a pixel comes from the lobe or from the map by chance: many frames of one have the mean of a long one."""
-    brdf = context.ggx(0.3, (0.9, 0.7, 0.4))
-    settings = dict(samples=samples, coarsest_level=0, seed=1)
-    few = render(context, brdf, np.eye(3), accumulate=512, sampler="combined", **settings)
-    many = render(context, brdf, np.eye(3), samples=16384, coarsest_level=0, sampler="combined", seed=7001)
-    covered = few.material > 0
-    relative = luminance(few)[covered] / luminance(many)[covered] - 1
-    # The mean over 3,000 pixels, whose errors the map's points share: their spread over the root of the frames.
-    spread = few.variance_measured[covered] if samples > 1 else few.variance_predicted[covered]
-    deviation = np.sqrt(spread / (512 * samples)) / luminance(many)[covered]
-    assert abs(relative.mean()) < 4 * deviation.mean() / np.sqrt(10)
+def test_the_fewest_samples_are_unbiased(shared, many_samples, samples):
+    """One sample of a pixel comes from the lobe or from the map by chance: frames of few have, on average, the mean of one of many."""
+    brdf, many = many_samples
+    means = []
+    for seed in range(0, 16000, 1000):
+        few = render_blob(shared, brdf, accumulate=2, samples=samples, coarsest_level=0, sampler="combined", seed=seed)
+        covered = few.material > 0
+        means.append(np.mean(luminance(few)[covered] / many[covered]) - 1)
+    # Frames are independent of each other, so their spread gives the standard error of their mean. It is a quarter of a percent for
+    # one sample. Student's t of 15 degrees of freedom exceeds 5.2 once in 10,000 times.
+    assert abs(np.mean(means)) < 5.2 * np.std(means, ddof=1) / np.sqrt(len(means))
 
 
 def one_bright_texel():
@@ -241,15 +239,15 @@ EXTREME_MAPS = {"sun of 1e6": one_bright_texel(), "one texel": np.ones((1, 1, 3)
 @pytest.mark.parametrize("map_name", EXTREME_MAPS)
 @pytest.mark.parametrize("material", ["mirror", "black", "rough"])
 @pytest.mark.parametrize("asked", [{"target_error": 0.05}, {"time_budget": 20}])
-def test_extremes_have_an_error_too(context, size, map_name, material, asked):
+def test_extremes_have_an_error_too(shared, size, map_name, material, asked):
     """Finite pictures and estimates whatever is asked; and where a closed form is known, the error is what it says."""
-    brdf = {"mirror": lambda: context.ggx(1e-4, (1, 1, 1)), "black": lambda: context.lambert(0),
-            "rough": lambda: context.ggx(0.5, (0.5, 0.5, 0.5))}[material]()
-    scene = context.scene()
-    scene.environment = context.environment(EXTREME_MAPS[map_name])
-    scene.add(context.builtin_mesh("sphere", 32), brdf)
+    brdf = {"mirror": lambda: shared.ggx(1e-4, (1, 1, 1)), "black": lambda: shared.lambert(0),
+            "rough": lambda: shared.ggx(0.5, (0.5, 0.5, 0.5))}[material]()
+    scene = shared.scene()
+    scene.environment = shared.environment(EXTREME_MAPS[map_name])
+    scene.add(shared.builtin_mesh("sphere", 32), brdf)
     scene.camera(eye=(0, 0, 2), target=(0, 0, 0))
-    frame = context.frame(*size, max_samples=1024, **asked)
+    frame = shared.frame(*size, max_samples=1024, **asked)
     frame.render(scene)
     assert np.isfinite(frame.color).all() and (frame.color >= 0).all()
     assert np.isfinite(frame.error).all() and np.isfinite(frame.stats.error)
@@ -257,23 +255,19 @@ def test_extremes_have_an_error_too(context, size, map_name, material, asked):
         assert frame.stats.error == 0 and not frame.color[..., :3].any()
 
 
-def test_every_pixel_is_held_against_itself(context):
+def test_every_pixel_is_held_against_itself(shared):
     """Pixels of two materials, a bright and a dark one, are shaded in another order than they are looked at."""
-    scene = context.scene()
-    scene.environment = context.environment(light(directions()))
+    scene = shared.scene()
+    scene.environment = shared.environment(light(directions()))
     for x, material in ((-0.45, "matte-fabric"), (0.45, "rough-gold")):
         matrix = np.eye(4)
         matrix[0, 3] = x
-        scene.add(context.builtin_mesh("sphere", 64), context.builtin_brdf(material), matrix)
+        scene.add(shared.builtin_mesh("sphere", 64), shared.builtin_brdf(material), matrix)
     scene.camera(eye=(0, 0.2, 2.5), target=(0, 0, 0), fov_y=0.7)
 
-    def rendered(**settings):
-        frame = context.frame(*SIZE, **settings)
-        frame.render(scene)
-        return frame
-
-    references = [luminance(rendered(samples=8192, seed=seed, coarsest_level=0, sampler="combined")) for seed in (93, 94)]
-    frame = rendered(target_error=0.03)
+    references = [luminance(rendered(shared, scene, *BLOB_SIZE, samples=8192, seed=seed, coarsest_level=0, sampler="combined"))
+                  for seed in (93, 94)]
+    frame = rendered(shared, scene, *BLOB_SIZE, target_error=0.03)
     assert frame.stats.audited_pixels > 100
     # As of one material alone; were one pixel held against another's, the estimate could not fall below their difference.
     assert true_error(frame, *references) < 1.5 * 0.03

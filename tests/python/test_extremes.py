@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import lightband
+from support import SharedObjects, rendered
 
 
 @pytest.mark.parametrize("row", ROWS, ids=[f"{row.name}: {row.figure}" for row in ROWS])
@@ -88,24 +89,28 @@ def materials(context: lightband.Context) -> dict[str, lightband.Brdf]:
 
 
 def render(
-    context: lightband.Context, brdf: lightband.Brdf, case: Case, size: float = 1, light: float = 1, **changed: float | str
+    context: lightband.Context | SharedObjects,
+    brdf: lightband.Brdf,
+    case: Case,
+    size: float = 1,
+    light: float = 1,
+    **changed: float | str,
 ) -> lightband.Frame:
     """The case in a world `size` times as large, under light `light` times as bright."""
     scene = context.scene()
     scene.add(context.builtin_mesh(case.mesh, 16), brdf, np.diag([size, size, size, 1]))
     scene.environment = context.environment({**MAPS, **UNSCALABLE_MAPS}[case.map] * np.float32(light))
     scene.camera(np.array([0.1, -1, case.elevation]) * size, target=(0, 0, 0), up=(0, 0, 1), fov_y=case.fov_y)
-    frame = context.frame(case.width, case.height, **{**case.settings, **changed})
-    frame.render(scene)
-    return frame
+    return rendered(context, scene, case.width, case.height, **{**case.settings, **changed})
 
 
 @settings(deadline=None, max_examples=60)
 @given(case=cases((*MAPS, *UNSCALABLE_MAPS)))
 def test_any_combination_is_finite_counted_and_repeats(
-    context: lightband.Context, materials: dict[str, lightband.Brdf], case: Case
+    shared: SharedObjects, materials: dict[str, lightband.Brdf], case: Case
 ) -> None:
-    frame, again = (render(context, materials[case.material], case) for _ in range(2))
+    brdf = materials[case.material]
+    frame, again = render(shared, brdf, case), render(shared.context, brdf, case)  # the second under a map of its own
     assert not_finite(frame) == 0
     assert (frame.color >= 0).all()
     for name in lightband.buffer_names():
@@ -125,12 +130,12 @@ def test_any_combination_is_finite_counted_and_repeats(
 @given(case=cases(tuple(MAPS)), exponent=st.integers(-100, 29))
 @example(case=Case("GGX", "dim", "sphere", 1.0, 0.7, 17, 13, {"samples": 64}), exponent=-100)
 def test_light_times_a_power_of_two(
-    context: lightband.Context, materials: dict[str, lightband.Brdf], case: Case, exponent: int
+    shared: SharedObjects, materials: dict[str, lightband.Brdf], case: Case, exponent: int
 ) -> None:
     """Multiplication by a power of two commutes with every rounding: not one bit of a significand changes, from texels of 6e-8 *
     2^-100 = 2^-124 to 1e6 * 2^29 = 5e14. What a field cannot hold is the nearest float."""
     brdf, factor = materials[case.material], 2.0**exponent
-    one, other = render(context, brdf, case), render(context, brdf, case, light=factor)
+    one, other = render(shared, brdf, case), render(shared.context, brdf, case, light=factor)
     for name, power in (("color", 1), ("variance_predicted", 2), ("variance_pyramid", 0), ("level", 0), ("sample_count", 0),
                         ("bandwidth_spatial", 0), ("bandwidth_angular", 0), ("bandwidth_image", 0)):
         expected = one.buffer(name)[..., :3] if name == "color" else one.buffer(name)
@@ -143,11 +148,11 @@ def test_light_times_a_power_of_two(
 @settings(deadline=None, max_examples=40)
 @given(case=cases(tuple(MAPS)), exponent=st.integers(-20, 20))
 def test_world_times_a_power_of_two(
-    context: lightband.Context, materials: dict[str, lightband.Brdf], case: Case, exponent: int
+    shared: SharedObjects, materials: dict[str, lightband.Brdf], case: Case, exponent: int
 ) -> None:
     """The same picture to the last bit, from 1e-6 to 1e6 metres; what is per metre is divided."""
     brdf, factor = materials[case.material], 2.0**exponent
-    one, other = render(context, brdf, case), render(context, brdf, case, size=factor)
+    one, other = render(shared, brdf, case), render(shared, brdf, case, size=factor)
     for name, power in (("color", 0), ("depth", 1), ("curvature", -1), ("bandwidth_spatial", -1), ("bandwidth_angular", 0),
                         ("bandwidth_image", 0), ("level", 0), ("sample_count", 0), ("variance_predicted", 0)):
         np.testing.assert_array_equal(other.buffer(name), one.buffer(name) * np.float64(factor) ** power, err_msg=name)
@@ -172,11 +177,13 @@ def test_meshes_in_any_units(context: lightband.Context, units: float) -> None:
 @settings(deadline=None, max_examples=25)
 @given(case=cases(tuple(MAPS)), exponent=st.floats(-6, 6), samples=st.sampled_from((1, 7, 64)))
 def test_light_times_any_factor(
-    context: lightband.Context, materials: dict[str, lightband.Brdf], case: Case, exponent: float, samples: int
+    shared: SharedObjects, materials: dict[str, lightband.Brdf], case: Case, exponent: float, samples: int
 ) -> None:
     """Both pictures are sums of n positive terms of the same directions, each rounded n + 8 times at most (extreme_rows). The
     nearest texel: a device interpolates by a + w (b - a), whose rounding is relative to the brighter texel."""
     changed: dict[str, float | str] = {"method": "reference", "samples": samples, "environment_lookup": "nearest"}
     factor = float(np.float32(10.0**exponent))
-    one, other = (luminance(render(context, materials[case.material], case, light=light, **changed)) for light in (1, factor))
+    brdf = materials[case.material]
+    one = luminance(render(shared, brdf, case, **changed))
+    other = luminance(render(shared.context, brdf, case, light=factor, **changed))
     assert (np.abs(other - factor * one) <= 2 * (samples + 8) * ROUNDING * factor * one).all()

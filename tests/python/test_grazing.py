@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import lightband
+from support import LUMINANCE, luminance, rendered
 
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 CHANNEL_SCALE = np.array([1, 1.15, 1.66]) / 1500  # of a MERL file
 UNMEASURED_FROM = 85  # theta_diff, in cells of a degree
 
@@ -84,10 +84,9 @@ def test_a_grazing_view_of_a_furnace_shows_the_albedo(
     scene.environment = logging_context.environment(np.ones((8, 16, 3)))
     scene.camera(eye=50 * np.array([np.sin(theta), 0, np.cos(theta)]), target=(0, 0, 0), fov_y=1e-5)
     scene.add(logging_context.builtin_mesh("plane"), nickel, np.diag([9, 9, 1, 1]))
-    frame = logging_context.frame(16, 16, samples=1024, sampler="brdf", sequence="random", coarsest_level=0)
-    frame.render(scene)
+    frame = rendered(logging_context, scene, 16, 16, samples=1024, sampler="brdf", sequence="random", coarsest_level=0)
     seen = frame.material > 0
-    shown = frame.color[..., :3][seen].astype(np.float64) @ LUMINANCE
+    shown = luminance(frame)[seen]
     expected = nickel.albedo(theta) @ LUMINANCE
     # Four standard deviations of the mean, and the rounding of the table to half floats, 2^-12.
     noise = np.sqrt(frame.variance_measured[seen].mean() / frame.sample_count[seen].mean() / seen.sum())

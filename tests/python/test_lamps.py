@@ -4,7 +4,7 @@ promised is kept there too."""
 import numpy as np
 import pytest
 
-from test_method import LUMINANCE
+from support import LUMINANCE, rendered
 
 ALBEDO = np.array([0.8, 0.5, 0.3])
 TORUS = [[-0.4551, 0.4806, -0.1382, 0], [-0.4805, -0.3684, 0.3009, 0], [0.1386, 0.3007, 0.5895, 0]]
@@ -56,14 +56,13 @@ def exact(normals, pixels):
 
 @pytest.mark.parametrize("settings", [{"target_error": 0.1}, {"target_error": 0.03}])
 @pytest.mark.parametrize("name", SCENES)
-def test_what_is_asked_is_reached(context, name, settings):
+def test_what_is_asked_is_reached(shared, name, settings):
     pixels, mesh, segments, transform, eye = SCENES[name]
-    scene = context.scene()
-    scene.environment = context.environment(np.repeat(pixels[..., None], 3, -1))
-    scene.add(context.builtin_mesh(mesh, segments), context.lambert(ALBEDO), transform)
+    scene = shared.scene()
+    scene.environment = shared.environment(np.repeat(pixels[..., None], 3, -1))
+    scene.add(shared.builtin_mesh(mesh, segments), shared.lambert(ALBEDO), transform)
     scene.camera(eye, (0, 0, 0))
-    frame = context.frame(96, 96, **settings)
-    frame.render(scene)
+    frame = rendered(shared, scene, 96, 96, **settings)
     seen = frame.material > 0
     true = exact(frame.normal[seen].astype(float), pixels)
     got = np.sqrt(np.mean(((frame.color[seen][:, :3] @ LUMINANCE - true) / (true + 0.01 * true.mean())) ** 2))

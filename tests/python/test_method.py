@@ -3,25 +3,7 @@
 import numpy as np
 import pytest
 
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-HEIGHT, WIDTH = 128, 256
-
-
-def directions():
-    """Unit directions of a latitude-longitude map's texel centres: +Y up, the centre looks along +Z, +X to its left."""
-    longitude = (0.5 - (np.arange(WIDTH) + 0.5) / WIDTH) * 2 * np.pi
-    latitude = (0.5 - (np.arange(HEIGHT) + 0.5) / HEIGHT) * np.pi
-    longitude, latitude = np.meshgrid(longitude, latitude)
-    return np.stack([np.cos(latitude) * np.sin(longitude), np.sin(latitude), np.cos(latitude) * np.cos(longitude)], -1)
-
-
-def light(d):
-    """Three coloured lobes over a dim sky; nothing about it is symmetric."""
-    centres = np.array([[0.6, 0.7, 0.4], [-0.8, 0.1, 0.6], [0.1, -0.3, 0.95]])
-    centres /= np.linalg.norm(centres, axis=1, keepdims=True)
-    colours = np.array([[20.0, 18, 15], [3, 6, 9], [5, 2, 1]])
-    lobes = np.exp((d @ centres.T - 1) * np.array([60.0, 15, 30]))
-    return (lobes @ colours + np.array([0.1, 0.15, 0.2]) * (1.2 + d[..., 1:2])).astype(np.float32)
+from support import LUMINANCE, luminance, render_blob
 
 
 def quarter_turn(axis):
@@ -33,26 +15,13 @@ def quarter_turn(axis):
     return turn
 
 
-def render(context, brdf, turn, **settings):
-    """The same scene seen in a world that was turned as a whole."""
-    scene = context.scene()
-    scene.environment = context.environment(light(directions() @ turn))  # light from turn @ d is light(d)
-    matrix = np.eye(4)
-    matrix[:3, :3] = turn
-    scene.add(context.builtin_mesh("blob", 128), brdf, matrix)
-    scene.camera(eye=turn @ (0.3, 0.4, 1.9), target=(0, 0, 0), up=turn @ (0, 1, 0), fov_y=0.6)
-    frame = context.frame(96, 80, **settings)
-    frame.render(scene)
-    return frame
-
-
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("material", ["table", "ggx", "lambert"])
-def test_turning_the_world_changes_nothing_but_noise(context, axis, material):
-    brdf = {"table": lambda: context.builtin_brdf("interference-paint"), "ggx": lambda: context.ggx(0.2, (0.9, 0.7, 0.4)),
-            "lambert": lambda: context.lambert((0.8, 0.5, 0.3))}[material]()
-    before = render(context, brdf, np.eye(3), samples=256, seed=1, coarsest_level=0)
-    after = render(context, brdf, quarter_turn(axis), samples=256, seed=2, coarsest_level=0)
+def test_turning_the_world_changes_nothing_but_noise(shared, axis, material):
+    brdf = {"table": lambda: shared.builtin_brdf("interference-paint"), "ggx": lambda: shared.ggx(0.2, (0.9, 0.7, 0.4)),
+            "lambert": lambda: shared.lambert((0.8, 0.5, 0.3))}[material]()
+    before = render_blob(shared, brdf, samples=256, seed=1, coarsest_level=0)
+    after = render_blob(shared, brdf, quarter_turn(axis), samples=256, seed=2, coarsest_level=0)
 
     # Rasterised positions may differ by rounding at the outline: compare what both frames see.
     both = (before.material > 0) & (after.material > 0)
@@ -71,26 +40,26 @@ def test_turning_the_world_changes_nothing_but_noise(context, axis, material):
 
 def error(frame, reference):
     covered = frame.material > 0
-    mine, true = ((f.color[..., :3] @ LUMINANCE)[covered] for f in (frame, reference))
+    mine, true = luminance(frame)[covered], reference[covered]
     return np.sqrt(np.mean(((mine - true) / (true + 0.01 * true.mean())) ** 2))
 
 
 @pytest.mark.parametrize("material", ["rough-gold", "matte-fabric"])
-def test_adaptive_converges_to_the_reference(context, material):
-    brdf = context.builtin_brdf(material)
-    reference = render(context, brdf, np.eye(3), samples=16384, seed=9, coarsest_level=0)
-    errors = [error(render(context, brdf, np.eye(3), samples=n, seed=1), reference) for n in (16, 256, 4096)]
+def test_adaptive_converges_to_the_reference(shared, blob_references, material):
+    brdf = shared.builtin_brdf(material)
+    reference = np.mean(blob_references(material), axis=0)  # of 16,384 samples
+    errors = [error(render_blob(shared, brdf, samples=n, seed=1), reference) for n in (16, 256, 4096)]
     # Noise falls with the root of the samples, and the balanced interpolation with it: by 4 for each factor of 16. Half of
     # that is demanded; the reference's own noise, a quarter of the last frame's at most, is within it.
     assert errors[1] < errors[0] / 2
     assert errors[2] < errors[1] / 2
 
 
-def test_the_two_samplers_agree(context):
+def test_the_two_samplers_agree(shared):
     """Combined sampling and the papers' sampling of the BRDF have the same mean: two estimators, one integral."""
-    brdf = context.builtin_brdf("rough-nickel")
-    combined = render(context, brdf, np.eye(3), samples=4096, seed=3, coarsest_level=0, sampler="combined")
-    papers = render(context, brdf, np.eye(3), samples=4096, seed=4, method="reference")
+    brdf = shared.builtin_brdf("rough-nickel")
+    combined = render_blob(shared, brdf, samples=4096, seed=3, coarsest_level=0, sampler="combined")
+    papers = render_blob(shared, brdf, samples=4096, seed=4, method="reference")
     both = (combined.material > 0) & (papers.material > 0)
     variance = sum(f.variance_measured[both] / f.sample_count[both] for f in (combined, papers))
     difference = ((combined.color - papers.color)[..., :3] @ LUMINANCE)[both]

@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from support import rendered
+
+SIZE = 64, 64
 PREDICTION = ["environment", "bandwidth", "pyramids"]
 
 
@@ -16,75 +19,69 @@ def sphere(context, environment):
     return scene
 
 
-def rendered(context, scene, **settings):
-    frame = context.frame(64, 64, **settings)
-    frame.render(scene)
-    return frame
-
-
 def passes(frame):
     return [line.split()[0] for line in frame.plan.splitlines()][:-1]  # the last line is the total
 
 
 def test_an_adaptive_frame(context, sphere):
-    frame = rendered(context, sphere, samples=16)
+    frame = rendered(context, sphere, *SIZE, samples=16)
     assert passes(frame) == ["gbuffer", "covered", "environment", "bandwidth", "control", "pilot", "recheck", "pyramids", "classify", "list",
                              "shade", "upsample", "estimate", "combine"]
     assert frame.stats.rounds == 1
 
 
 def test_without_bias_nothing_is_audited(context, sphere):
-    frame = rendered(context, sphere, samples=16, sampler="combined")
+    frame = rendered(context, sphere, *SIZE, samples=16, sampler="combined")
     assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate", "combine"]
     assert frame.stats.audited_pixels == 0 and frame.stats.bias_error == 0
 
 
 def test_a_reference_predicts_and_interpolates_nothing(context, sphere):
-    frame = rendered(context, sphere, method="reference", samples=16)
+    frame = rendered(context, sphere, *SIZE, method="reference", samples=16)
     assert passes(frame) == ["gbuffer", "covered", "classify", "list", "shade", "estimate"]
     assert frame.stats.interpolation_error == 0
 
 
 def test_without_levels_nothing_is_interpolated(context, sphere):
-    frame = rendered(context, sphere, samples=16, coarsest_level=0)
+    frame = rendered(context, sphere, *SIZE, samples=16, coarsest_level=0)
     assert "upsample" not in passes(frame)
     assert frame.stats.shaded_pixels == frame.stats.covered_pixels
 
 
 def test_no_background_no_pass(context, sphere):
-    assert "background" not in passes(rendered(context, sphere, samples=16))
-    assert passes(rendered(context, sphere, samples=16, background="environment"))[-1] == "background"
+    assert "background" not in passes(rendered(context, sphere, *SIZE, samples=16))
+    assert passes(rendered(context, sphere, *SIZE, samples=16, background="environment"))[-1] == "background"
 
 
 def test_rounds_repeat_passes_and_add_none(context, sphere):
-    frame = rendered(context, sphere, time_budget=400)
+    frame = rendered(context, sphere, *SIZE, time_budget=400)
     for _ in range(4):  # in the first frames tables and the driver's compiler take what there is
         frame.render(sphere)
         if frame.stats.rounds == 2 and "control" in passes(frame):
             break
     assert frame.stats.rounds == 2
-    once = passes(rendered(context, sphere, samples=16))
+    once = passes(rendered(context, sphere, *SIZE, samples=16))
     # Where time is short there are no pilot samples; where it is plenty, every pixel is shaded in the end.
     names = passes(frame)
     assert [name for name in once if name in names] == names
     assert set(once) - set(names) <= ({"pilot", "upsample", "combine"} if frame.stats.shaded_pixels == frame.stats.covered_pixels else {"pilot"})
-    assert passes(rendered(context, sphere, target_error=0.1)) == once
+    assert passes(rendered(context, sphere, *SIZE, target_error=0.1)) == once
 
 
 def test_where_interpolation_does_not_pay_nothing_is_interpolated(context, sphere):
     """An error so small that nearly every pixel is to be shaded is reached sooner where all are."""
-    frame = rendered(context, sphere, target_error=0.001)
+    frame = rendered(context, sphere, *SIZE, target_error=0.001)
     assert frame.stats.shaded_pixels == frame.stats.covered_pixels and "upsample" not in passes(frame)
-    assert rendered(context, sphere, target_error=0.1).stats.shaded_pixels < frame.stats.shaded_pixels
+    assert rendered(context, sphere, *SIZE, target_error=0.1).stats.shaded_pixels < frame.stats.shaded_pixels
     # What was made for it is gone: no byte is left of it, and levels are those of the bandwidth as it is.
-    every = rendered(context, sphere, target_error=0.001, coarsest_level=0)
+    every = rendered(context, sphere, *SIZE, target_error=0.001, coarsest_level=0)
     assert frame.stats.device_bytes == every.stats.device_bytes
-    np.testing.assert_array_equal(frame.level, rendered(context, sphere, samples=16, bandwidth_scale=1).level)
+    np.testing.assert_array_equal(frame.level, rendered(context, sphere, *SIZE, samples=16, bandwidth_scale=1).level)
 
 
 def test_variances_are_gathered_where_shares_follow_them(context, sphere):
     """Under a cut all pixels of one spacing have alike; the field is there all the same."""
-    shared, alike = (rendered(context, sphere, samples=16, bandwidth_scale=1, allocation=allocation)
+    shared, alike = (rendered(context, sphere, *SIZE, samples=16, bandwidth_scale=1, allocation=allocation)
                      for allocation in ("constant_variance", "least_error"))
     rows = shared.level_pyramid.shape[0]
     lists = 4 * (shared.stats.shaded_pixels - alike.stats.shaded_pixels)
@@ -95,15 +92,15 @@ def test_variances_are_gathered_where_shares_follow_them(context, sphere):
 
 def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):
     """The map's directions, 65,536 of 32 bytes, and 64 clusters of as many are made when they are first asked for."""
-    before = rendered(context, sphere, samples=16, coarsest_level=0, sampler="brdf").stats.device_bytes
-    after = rendered(context, sphere, samples=16, coarsest_level=0, sampler="combined").stats.device_bytes
+    before = rendered(context, sphere, *SIZE, samples=16, coarsest_level=0, sampler="brdf").stats.device_bytes
+    after = rendered(context, sphere, *SIZE, samples=16, coarsest_level=0, sampler="combined").stats.device_bytes
     importance = 64 * (2 * 16 * 16 + 1) * 4  # of each view, means and peaks of cells, and their integral
     assert after - before == 65536 * 32 + 64 * 32 + importance
 
 
 def test_a_pixel_that_sees_nothing_is_in_no_list(context, sphere):
     """Passes over covered pixels count those alone."""
-    frame = rendered(context, sphere, samples=16)
+    frame = rendered(context, sphere, *SIZE, samples=16)
     for line in frame.plan.splitlines():
         if line.split()[0] in ("bandwidth", "classify", "upsample"):
             assert f" {frame.stats.covered_pixels} pixels" in line

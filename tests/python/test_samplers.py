@@ -3,23 +3,18 @@
 import numpy as np
 import pytest
 
-from test_method import directions, light
+from support import LUMINANCE, directions, light, rendered
 
 EVERY = {"coarsest_level": 0}  # pixel is shaded
+SIZE = 48, 40
 
 
-def scene_of(context, brdf, environment):
-    scene = context.scene()
+def scene_of(shared, brdf, environment):
+    scene = shared.scene()
     scene.environment = environment
-    scene.add(context.builtin_mesh("sphere", 64), brdf)
+    scene.add(shared.builtin_mesh("sphere", 64), brdf)
     scene.camera(eye=(0.3, 0.4, 1.9), target=(0, 0, 0), fov_y=0.6)
     return scene
-
-
-def rendered(context, scene, **settings):
-    frame = context.frame(48, 40, **settings)
-    frame.render(scene)
-    return frame
 
 
 def deviation(frame, truth):
@@ -29,25 +24,25 @@ def deviation(frame, truth):
 
 
 @pytest.fixture(scope="module")
-def smooth(context):
-    return context.environment(light(directions()))
+def smooth(shared):
+    return shared.environment(light(directions()))
 
 
-def test_a_constant_map_has_no_footprint(context):
+def test_a_constant_map_has_no_footprint(shared):
     """Whatever the footprint, the mean of a constant is the constant: a Lambertian furnace stays exact but for half floats' 2^-11."""
-    scene = scene_of(context, context.lambert(1.0), context.environment(np.ones((16, 32, 3), np.float32)))
-    frame = rendered(context, scene, samples=4, sampler="filtered", **EVERY)
+    scene = scene_of(shared, shared.lambert(1.0), shared.environment(np.ones((16, 32, 3), np.float32)))
+    frame = rendered(shared, scene, *SIZE, samples=4, sampler="filtered", **EVERY)
     np.testing.assert_allclose(frame.color[frame.material > 0], 1, atol=2**-11)
 
 
-def test_a_mirror_looks_the_map_up_as_it_is(context, smooth):
+def test_a_mirror_looks_the_map_up_as_it_is(shared, smooth):
     """A footprint below a texel of 128 x 128 (8e-4 steradians at most) is a lookup of the map itself.
 
     GGX of alpha a draws densities below p with a chance of 2 a sqrt(pi p): footprints of 1 / (16 p) reach a texel for 0.3 % of the
     samples, and 5 % of the pixels have one. The others differ by where their points lie, within a peak some 1e-4 radians wide.
     """
-    scene = scene_of(context, context.ggx(1e-4, (0.9, 0.9, 0.9)), smooth)
-    plain, filtered = (rendered(context, scene, samples=16, sampler=sampler, **EVERY) for sampler in ("brdf", "filtered"))
+    scene = scene_of(shared, shared.ggx(1e-4, (0.9, 0.9, 0.9)), smooth)
+    plain, filtered = (rendered(shared, scene, *SIZE, samples=16, sampler=sampler, **EVERY) for sampler in ("brdf", "filtered"))
     covered = plain.material > 0
     apart = abs(filtered.color[covered] / plain.color[covered] - 1).max(axis=-1)
     assert (apart > 1e-3).mean() < 0.15
@@ -55,11 +50,11 @@ def test_a_mirror_looks_the_map_up_as_it_is(context, smooth):
 
 
 @pytest.mark.parametrize("sampler, unbiased", [("filtered", "brdf"), ("cut", "combined")])
-def test_bias_takes_noise_away_and_falls(context, smooth, sampler, unbiased):
-    scene = scene_of(context, context.ggx(0.3, (0.9, 0.6, 0.3)), smooth)
-    truth = rendered(context, scene, samples=1024, accumulate=16, seed=9, sampler="combined", **EVERY)
-    plain = rendered(context, scene, samples=16, sampler=unbiased, **EVERY)
-    biased, finer = (rendered(context, scene, samples=samples, sampler=sampler, **EVERY) for samples in (16, 256))
+def test_bias_takes_noise_away_and_falls(shared, smooth, sampler, unbiased):
+    scene = scene_of(shared, shared.ggx(0.3, (0.9, 0.6, 0.3)), smooth)
+    truth = rendered(shared, scene, *SIZE, samples=1024, accumulate=16, seed=9, sampler="combined", **EVERY)
+    plain = rendered(shared, scene, *SIZE, samples=16, sampler=unbiased, **EVERY)
+    biased, finer = (rendered(shared, scene, *SIZE, samples=samples, sampler=sampler, **EVERY) for samples in (16, 256))
     # What they are for: half the error at equal samples (a quarter of the samples at equal error) under the smoothest map.
     assert deviation(biased, truth) < 0.5 * deviation(plain, truth)
     # Sixteen times the samples shrink footprints and parts to a sixteenth: a bias of second order falls by sixteen, noise by four
@@ -67,52 +62,52 @@ def test_bias_takes_noise_away_and_falls(context, smooth, sampler, unbiased):
     assert deviation(finer, truth) < deviation(biased, truth) / 3
 
 
-def test_a_cut_of_a_constant_map_is_the_constant(context):
+def test_a_cut_of_a_constant_map_is_the_constant(shared):
     """Below the soft ceilings lies a part of the light, above them the rest: together the furnace's 1, at any roughness.
 
     The cut's parts are cells of the sphere, and the cosine is taken at their middles. Of 16 samples' cut a cell is w = 0.6 radians
     wide, and one that the horizon halves is taken to send nothing of its w^3 / (8 pi) = 0.9 %, or twice that: of some ten around the
     horizon, half at most either way. What lies above is half of the light. Of 1,024 samples' it is 0.1 radians wide.
     """
-    scene = scene_of(context, context.lambert(1.0), context.environment(np.ones((16, 32, 3), np.float32)))
+    scene = scene_of(shared, shared.lambert(1.0), shared.environment(np.ones((16, 32, 3), np.float32)))
     for samples, bound in ((16, 0.045), (1024, 0.003)):
-        frame = rendered(context, scene, samples=samples, sampler="cut", **EVERY)
+        frame = rendered(shared, scene, *SIZE, samples=samples, sampler="cut", **EVERY)
         np.testing.assert_allclose(frame.color[frame.material > 0], 1, atol=bound)
 
 
-def test_a_cut_does_not_depend_on_where_the_map_is_bright(context):
+def test_a_cut_does_not_depend_on_where_the_map_is_bright(shared):
     """Turning the world by a quarter about the up axis turns the map's columns, its blocks and its tree along."""
     texels = light(directions())
     pictures = []
     for quarter in (0, 1):
-        scene = context.scene()
-        scene.environment = context.environment(np.roll(texels, quarter * texels.shape[1] // 4, axis=1))
-        scene.add(context.builtin_mesh("sphere", 64), context.ggx(0.3, (0.9, 0.6, 0.3)))
+        scene = shared.scene()
+        scene.environment = shared.environment(np.roll(texels, quarter * texels.shape[1] // 4, axis=1))
+        scene.add(shared.builtin_mesh("sphere", 64), shared.ggx(0.3, (0.9, 0.6, 0.3)))
         angle = -quarter * np.pi / 2  # +X of the map lies left of its middle
         scene.camera(eye=(1.9 * np.sin(0.3 + angle), 0.4, 1.9 * np.cos(0.3 + angle)), target=(0, 0, 0), fov_y=0.6)
-        pictures.append(rendered(context, scene, samples=1024, sampler="cut", **EVERY))
+        pictures.append(rendered(shared, scene, *SIZE, samples=1024, sampler="cut", **EVERY))
     one, other = (picture.color[picture.material > 0][:, :3].mean(axis=0) for picture in pictures)
     # Two frames of 1,024 samples a pixel, each within half a percent: their means agree to far better.
     np.testing.assert_allclose(one, other, rtol=2e-3)
 
 
 @pytest.mark.parametrize("value", [0.0, 1e-40, 1e15])
-def test_the_darkest_and_the_brightest_map(context, value):
+def test_the_darkest_and_the_brightest_map(shared, value):
     """A black, a denormal and the brightest map that is taken: relative to it, everything is as ever."""
     texels = np.full((16, 32, 3), value, np.float32)
-    scene = scene_of(context, context.ggx(0.4, (0.9, 0.9, 0.9)), context.environment(texels))
+    scene = scene_of(shared, shared.ggx(0.4, (0.9, 0.9, 0.9)), shared.environment(texels))
     for sampler in ("filtered", "cut"):
-        color = rendered(context, scene, samples=16, sampler=sampler, **EVERY).color[..., :3]
+        color = rendered(shared, scene, *SIZE, samples=16, sampler=sampler, **EVERY).color[..., :3]
         assert np.isfinite(color).all()
         assert color.max() <= 1.5 * texels.max()  # twice what is reflected would show a ceiling that was counted twice
 
 
-def test_one_texel_of_a_million(context):
+def test_one_texel_of_a_million(shared):
     texels = np.full((32, 64, 3), 0.01, np.float32)
     texels[9, 17] = 1e6
-    scene = scene_of(context, context.ggx(0.4, (0.9, 0.9, 0.9)), context.environment(texels))
-    truth = rendered(context, scene, samples=1024, sampler="combined", **EVERY)
-    cut = rendered(context, scene, samples=256, sampler="cut", **EVERY)
+    scene = scene_of(shared, shared.ggx(0.4, (0.9, 0.9, 0.9)), shared.environment(texels))
+    truth = rendered(shared, scene, *SIZE, samples=1024, sampler="combined", **EVERY)
+    cut = rendered(shared, scene, *SIZE, samples=256, sampler="cut", **EVERY)
     covered = truth.material > 0
     assert np.isfinite(cut.color).all()
     # The lamp is a part of every cut: what it sends is known where it is.
@@ -129,7 +124,7 @@ def test_tables_are_made_when_they_are_asked_for(context, hides, bytes_below):
     environment = context.environment(radiance)  # 128 rows: a square of 128 texels a side
     scene = scene_of(context, context.ggx(0.3, (0.9, 0.9, 0.9)), environment)
     texels = sum((128 >> level) ** 2 for level in range(8))
-    sizes = [rendered(context, scene, samples=16, sampler=sampler, **EVERY).stats.device_bytes
+    sizes = [rendered(context, scene, *SIZE, samples=16, sampler=sampler, **EVERY).stats.device_bytes
              for sampler in ("brdf", "filtered", "combined", "cut")]
     importance = 64 * (2 * 16 * 16 + 1) * 4  # of each view, means and peaks of cells, and their integral
     points = 65536 * 32 + 64 * 32  # the audits of both biased samplers draw some pixels by the map's points
@@ -139,23 +134,22 @@ def test_tables_are_made_when_they_are_asked_for(context, hides, bytes_below):
     assert sizes[3] - sizes[2] == 8 * bytes_below * texels + tree
 
 
-def test_a_reference_has_no_bias(context, smooth):
-    scene = scene_of(context, context.lambert(0.5), smooth)
-    frames = [rendered(context, scene, method="reference", samples=16, sampler=sampler) for sampler in ("cut", "brdf")]
+def test_a_reference_has_no_bias(shared, smooth):
+    scene = scene_of(shared, shared.lambert(0.5), smooth)
+    frames = [rendered(shared, scene, *SIZE, method="reference", samples=16, sampler=sampler) for sampler in ("cut", "brdf")]
     assert frames[0].color.tobytes() == frames[1].color.tobytes()
     assert frames[0].stats.audited_pixels == 0 and frames[0].stats.bias_error == 0
 
 
-def test_an_audit_finds_the_bias(context):
+def test_an_audit_finds_the_bias(shared):
     """A lobe that is filtered under one lamp is wrong by far more than its samples tell: the frame says so, and how much."""
     texels = np.full((64, 128, 3), 0.05, np.float32)
     texels[20:23, 40:43] = 500
-    scene = scene_of(context, context.ggx(0.1, (0.9, 0.6, 0.3)), context.environment(texels))
-    truth = rendered(context, scene, samples=4096, seed=9, sampler="combined", **EVERY)
-    frame = rendered(context, scene, samples=16, sampler="filtered", **EVERY)
+    scene = scene_of(shared, shared.ggx(0.1, (0.9, 0.6, 0.3)), shared.environment(texels))
+    truth = rendered(shared, scene, *SIZE, samples=4096, seed=9, sampler="combined", **EVERY)
+    frame = rendered(shared, scene, *SIZE, samples=16, sampler="filtered", **EVERY)
     covered = truth.material > 0
-    weights = np.array([0.2126, 0.7152, 0.0722])
-    seen, true = (picture.color[covered][:, :3] @ weights for picture in (frame, truth))
+    seen, true = (picture.color[covered][:, :3] @ LUMINANCE for picture in (frame, truth))
     error = np.sqrt(np.mean(((seen - true) / (true + 0.01 * true.mean())) ** 2))
     assert frame.stats.audited_pixels > 100
     assert frame.stats.bias_error > 0.3 * frame.stats.error

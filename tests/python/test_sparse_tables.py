@@ -8,9 +8,7 @@ from hypothesis import HealthCheck, given, seed, settings
 from hypothesis import strategies as st
 
 import lightband
-
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-Floats = npt.NDArray[np.float64]
+from support import Floats, luminance, rendered
 
 
 @st.composite
@@ -94,9 +92,7 @@ def test_what_is_asked_of_sparse_tables_is_got(
     scene.environment = context.environment(texels)
     scene.camera(eye=(500 * np.sin(theta), 0, 500 * np.cos(theta)), target=(0, 0, 0), fov_y=2e-4)
     scene.add(context.builtin_mesh("plane"), material, np.diag([9, 9, 1, 1]))
-    frame = context.frame(12, 12, target_error=0.01)
-    frame.render(scene)
-    shown = frame.color[..., :3].astype(float) @ LUMINANCE
+    shown = luminance(rendered(context, scene, 12, 12, target_error=0.01))
     if expected < 1e-6:
         assert shown.max() < 1e-5
         return

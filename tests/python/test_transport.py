@@ -4,6 +4,8 @@ bandwidth: isolated texels, whose own is kept by a mirror, and cut to the lobe's
 import numpy as np
 import pytest
 
+from support import rendered
+
 SIDE, PILOTS, NYQUIST = 96, 16, 0.5
 EPSILON = 2.0**-23  # of float
 MEAN_ERROR = (PILOTS + 4) * EPSILON  # of a mean over pilots: half of that for each term of each of two sums, and conversions
@@ -11,7 +13,7 @@ SEGMENTS = 256  # of the sphere, around
 
 
 @pytest.fixture(scope="module")
-def lights(context):
+def lights(shared):
     """A black sky but for texels around +Y, four apart on the octahedral square, and what bounds the bandwidth of those."""
     height, side = 64, 64
     x, z = np.meshgrid(*2 * [(np.arange(2 * side) + 0.5) / side - 1])  # 2 x 2 lookups in each texel, as shaders/environment_resample.glsl
@@ -21,7 +23,7 @@ def lights(context):
     chosen = (latitude < 0.5) & ((np.indices(x.shape) // 2 % 4 == 2).all(0))
     radiance = np.zeros((height, 2 * height, 3))
     radiance[rows[chosen], columns[chosen]] = 1
-    environment = context.environment(radiance)
+    environment = shared.environment(radiance)
     lit = radiance[rows, columns, 0].reshape(side, 2, side, 2).any((1, 3))
     assert environment.bandwidth.shape == lit.shape
     bandwidth = environment.bandwidth[lit]
@@ -29,29 +31,27 @@ def lights(context):
 
 
 @pytest.fixture(scope="module")
-def materials(context):
+def materials(shared):
     """What reflects all that arrives, its bandwidth unbounded, and what cuts it."""
-    return {"mirror": context.ggx(1e-4, 1), "matte": context.lambert(1)}
+    return {"mirror": shared.ggx(1e-4, 1), "matte": shared.lambert(1)}
 
 
-def rendered(context, environment, material, radius, distance, **settings):
+def shown(shared, environment, material, radius, distance, **settings):
     """The side of a sphere that mirrors +Y to an eye so many radii away, up to the silhouette."""
-    scene = context.scene()
+    scene = shared.scene()
     scene.environment = environment
-    scene.add(context.builtin_mesh("sphere", SEGMENTS), material, np.diag([2 * radius, 2 * radius, 2 * radius, 1]))
+    scene.add(shared.builtin_mesh("sphere", SEGMENTS), material, np.diag([2 * radius, 2 * radius, 2 * radius, 1]))
     scene.camera((0, 0, distance * radius), (0, 0.7 * radius, 0.7 * radius), fov_y=1.2 / distance)
-    frame = context.frame(SIDE, SIDE, samples=1, sampler="brdf", pilots=PILOTS, **settings)
-    frame.render(scene)
-    return frame
+    return rendered(shared, scene, SIDE, SIDE, samples=1, sampler="brdf", pilots=PILOTS, **settings)
 
 
 @pytest.mark.parametrize("distance", [3, 6])
 @pytest.mark.parametrize("radius", [1, 1e-3])
 @pytest.mark.parametrize("material", ["mirror", "matte"])
 @pytest.mark.parametrize("transport", ["correlated", "box"])
-def test_bandwidth_at_the_eye(context, lights, materials, transport, material, radius, distance):
+def test_bandwidth_at_the_eye(shared, lights, materials, transport, material, radius, distance):
     environment, light = lights
-    frame = rendered(context, environment, materials[material], radius, distance, transport=transport)
+    frame = shown(shared, environment, materials[material], radius, distance, transport=transport)
     seen = frame.material > 0
     spatial, angular, image, curvature = (frame.buffer(name)[seen].astype(float)
                                           for name in ("bandwidth_spatial", "bandwidth_angular", "bandwidth_image", "curvature"))
@@ -88,14 +88,13 @@ def test_bandwidth_at_the_eye(context, lights, materials, transport, material, r
     np.testing.assert_allclose(image, expected, rtol=MEAN_ERROR)
 
 
-def test_curvature_is_the_larger_of_two(context, lights, materials):
+def test_curvature_is_the_larger_of_two(shared, lights, materials):
     """A torus turns by 1 / 0.14 m around its tube, by 1 / 0.2 m at most along it. One-sided differences err by half of a pixel's turn."""
-    scene, eye = context.scene(), (0.3, 1.3, 0.6)
+    scene, eye = shared.scene(), (0.3, 1.3, 0.6)
     scene.environment = lights[0]
-    scene.add(context.builtin_mesh("torus"), materials["mirror"])
+    scene.add(shared.builtin_mesh("torus"), materials["mirror"])
     scene.camera(eye, (0, 0, 0), fov_y=0.6)
-    frame = context.frame(SIDE, SIDE, samples=1)
-    frame.render(scene)
+    frame = rendered(shared, scene, SIDE, SIDE, samples=1)
     to_eye = eye - frame.position.astype(float)
     travelled = np.linalg.norm(to_eye, axis=-1)
     cosine = np.sum(frame.normal * to_eye, -1) / travelled
@@ -106,8 +105,8 @@ def test_curvature_is_the_larger_of_two(context, lights, materials):
 
 @pytest.mark.parametrize("scale", [0.1, 1, 3])
 @pytest.mark.parametrize("material", ["mirror", "matte"])
-def test_a_level_is_the_coarsest_spacing_that_nyquist_allows(context, lights, materials, material, scale):
-    frame = rendered(context, lights[0], materials[material], 1, 3, bandwidth_scale=scale, coarsest_level=4)
+def test_a_level_is_the_coarsest_spacing_that_nyquist_allows(shared, lights, materials, material, scale):
+    frame = shown(shared, lights[0], materials[material], 1, 3, bandwidth_scale=scale, coarsest_level=4)
     seen = frame.material > 0
     image, level = frame.bandwidth_image[seen].astype(float), frame.level[seen]
     # log2 errs by 3 units of up to 2^-21 below 8 (GLSL 4.50, 4.7.1), its argument by three roundings: 10 EPSILON of the bandwidth.

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from support import rendered
+
 SIDE, EYE = 96, np.array([0.0, 0.0, 2.0])
 CHORD_SLOPE = CENTRE_TOLERANCE = 0.25  # shaders/parents.glsl, as least_weight
 LEAST_WEIGHT = 1e-30
@@ -11,30 +13,29 @@ PARTS = {"g_a", "g_z", "material"}
 EPSILON = 2.0**-23  # of float
 
 
-def torus(context, scene):
+def torus(shared, scene):
     """Curved, from its near side to its silhouettes; levels vary over it."""
-    scene.add(context.builtin_mesh("torus"), context.ggx(0.4, (0.9, 0.7, 0.4)), [[1.4, 0, 0, 0], [0, 0.8, -1.1, 0], [0, 1.1, 0.8, 0]])
+    scene.add(shared.builtin_mesh("torus"), shared.ggx(0.4, (0.9, 0.7, 0.4)), [[1.4, 0, 0, 0], [0, 0.8, -1.1, 0], [0, 1.1, 0.8, 0]])
     return 0, 1, 0
 
 
-def floor(context, scene):
+def floor(shared, scene):
     """Seen flat by a camera that lies on its side, so that weights differ along a diagonal; two instances meet along another."""
-    material = context.lambert((0.9, 0.8, 0.7))
+    material = shared.lambert((0.9, 0.8, 0.7))
     for x in (-2, 2):
         turned = [[4 * 0.88, 8 * 0.48, 0, 0.88 * x], [0, 0, -4, -0.4], [-4 * 0.48, 8 * 0.88, 0, -0.48 * x]]
-        scene.add(context.builtin_mesh("plane"), material, turned)
+        scene.add(shared.builtin_mesh("plane"), material, turned)
     return 1, 0.4, 0
 
 
-def rendered(context, environment, build, coarsest_level):
+def shown_by(shared, environment, build, coarsest_level):
     """One random sample a pixel: noise sets neighbours apart, so that weights show. Returns the picture's axes, down and right, too."""
-    scene = context.scene()
+    scene = shared.scene()
     scene.environment = environment
-    up = build(context, scene)
+    up = build(shared, scene)
     scene.camera(EYE, (0, 0, 0), up, 0.6)
-    frame = context.frame(SIDE, SIDE, bandwidth_scale=0.2, coarsest_level=coarsest_level, samples=1, sampler="brdf",
-                          sequence="random")
-    frame.render(scene)
+    frame = rendered(shared, scene, SIDE, SIDE, bandwidth_scale=0.2, coarsest_level=coarsest_level, samples=1, sampler="brdf",
+                     sequence="random")
     right = np.cross(-EYE, up)
     down = np.cross(-EYE, right)
     return frame, np.stack([down / np.linalg.norm(down), right / np.linalg.norm(right)], 1)
@@ -91,8 +92,8 @@ def mismatch(frame, parents):
 
 @pytest.mark.parametrize("coarsest_level", [1, 3])
 @pytest.mark.parametrize("build, shown", [(torus, {"g_a", "g_z"}), (floor, {"g_a", "material"})])
-def test_an_interpolated_pixel_shows_its_weighted_parents(context, environment, build, shown, coarsest_level):
-    frame, axes = rendered(context, environment, build, coarsest_level)
+def test_an_interpolated_pixel_shows_its_weighted_parents(shared, environment, build, shown, coarsest_level):
+    frame, axes = shown_by(shared, environment, build, coarsest_level)
     parents = at, spacing, there, weight, _, balanced = parents_of(frame, axes, PARTS)
     for level in range(coarsest_level):
         assert (spacing == 2**level).sum() > 20
