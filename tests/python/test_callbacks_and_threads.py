@@ -103,7 +103,7 @@ def test_cancel_cancels(long_frame: lightband.Frame, scene: lightband.Scene) -> 
 ANSWERS = [None, False, True, 0, 7, "", "cancel", "lightband.CANCEL", np.True_, np.zeros(2), lightband.Cancelled, object()]
 
 
-@pytest.mark.parametrize("answer", ANSWERS, ids=repr)
+@pytest.mark.parametrize("answer", ANSWERS, ids=lambda answer: "an object" if type(answer) is object else repr(answer))
 def test_any_other_answer_goes_on(context: lightband.Context, scene: lightband.Scene, answer: object) -> None:
     """As of a progress bar, whose update says whether it has drawn itself."""
     frame = context.frame(8, 8, samples=4)
