@@ -3,7 +3,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export LIGHTBAND_STARTED=${LIGHTBAND_STARTED:-$EPOCHSECONDS}
-# One name for the compiler in every build: the Python package's own choice is g++, whose objects ccache keeps apart from those of c++.
+# One name for the compiler in every build: left alone, the Python package takes g++, whose objects ccache keeps apart
+# from those of c++, and the whole library is compiled twice.
 export CC=${CC:-cc} CXX=${CXX:-c++}
 
 step() {

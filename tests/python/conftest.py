@@ -32,7 +32,8 @@ def blob_references(shared: SharedObjects) -> Callable[[str], list[Floats]]:
     @functools.cache
     def references(material: str) -> list[Floats]:
         settings = {"samples": 8192, "coarsest_level": 0, "sampler": "combined"}
-        return [luminance(render_blob(shared, shared.builtin_brdf(material), seed=seed, **settings)) for seed in (91, 92)]
+        brdf = shared.builtin_brdf(material)
+        return [luminance(render_blob(shared, brdf, seed=seed, **settings)) for seed in (91, 92)]
 
     return references
 

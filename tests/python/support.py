@@ -19,17 +19,19 @@ def luminance(frame: lightband.Frame) -> Floats:
     return np.asarray(frame.color[..., :3].astype(np.float64) @ LUMINANCE)
 
 
-def rendered(context: lightband.Context | SharedObjects, scene: lightband.Scene, width: int, height: int, **settings: float | str) -> lightband.Frame:
+def rendered(
+    context: lightband.Context | SharedObjects, scene: lightband.Scene, width: int, height: int, **settings: float | str
+) -> lightband.Frame:
     frame = context.frame(width, height, **settings)
     frame.render(scene)
     return frame
 
 
 class SharedObjects:
-    """Makes scenes and frames of a context anew, and its materials, maps and meshes once for all tests that ask for equal ones.
+    """Makes every scene and frame of a context anew, and each material, map and mesh once for all tests that want it.
 
-    The tables of a material take up to a second when a frame first needs them, those of a map a third of one. Tests that close an object, or
-    count the bytes that it takes, make their own.
+    The tables of a material take up to a second when a frame first needs them, those of a map a third of one. Tests
+    that close an object, or count the bytes that it takes, make their own.
     """
 
     def __init__(self, context: lightband.Context) -> None:
@@ -84,7 +86,9 @@ def light(d: Floats) -> npt.NDArray[np.float32]:
 UPRIGHT = np.eye(3)
 
 
-def render_blob(shared: SharedObjects, brdf: lightband.Brdf, turn: Floats = UPRIGHT, **settings: float | str) -> lightband.Frame:
+def render_blob(
+    shared: SharedObjects, brdf: lightband.Brdf, turn: Floats = UPRIGHT, **settings: float | str
+) -> lightband.Frame:
     """The same scene seen in a world that was turned as a whole."""
     scene = shared.scene()
     scene.environment = shared.environment(light(directions() @ turn))  # light from turn @ d is light(d)

@@ -213,15 +213,16 @@ def many_samples(shared):
 
 @pytest.mark.parametrize("samples", [1, 2, 3, 4, 5])
 def test_the_fewest_samples_are_unbiased(shared, many_samples, samples):
-    """One sample of a pixel comes from the lobe or from the map by chance: frames of few have, on average, the mean of one of many."""
+    """One sample of a pixel comes from the lobe or from the map by chance: frames of few samples have, on average, the
+    values of a frame of many."""
     brdf, many = many_samples
     means = []
     for seed in range(0, 16000, 1000):
         few = render_blob(shared, brdf, accumulate=2, samples=samples, coarsest_level=0, sampler="combined", seed=seed)
         covered = few.material > 0
         means.append(np.mean(luminance(few)[covered] / many[covered]) - 1)
-    # Frames are independent of each other, so their spread gives the standard error of their mean. It is a quarter of a percent for
-    # one sample. Student's t of 15 degrees of freedom exceeds 5.2 once in 10,000 times.
+    # Frames are independent of each other, so their spread gives the standard error of their mean. It is a quarter of a
+    # percent for one sample. Student's t of 15 degrees of freedom exceeds 5.2 once in 10,000 times.
     assert abs(np.mean(means)) < 5.2 * np.std(means, ddof=1) / np.sqrt(len(means))
 
 
@@ -265,8 +266,8 @@ def test_every_pixel_is_held_against_itself(shared):
         scene.add(shared.builtin_mesh("sphere", 64), shared.builtin_brdf(material), matrix)
     scene.camera(eye=(0, 0.2, 2.5), target=(0, 0, 0), fov_y=0.7)
 
-    references = [luminance(rendered(shared, scene, *BLOB_SIZE, samples=8192, seed=seed, coarsest_level=0, sampler="combined"))
-                  for seed in (93, 94)]
+    settings = {"samples": 8192, "coarsest_level": 0, "sampler": "combined"}
+    references = [luminance(rendered(shared, scene, *BLOB_SIZE, seed=seed, **settings)) for seed in (93, 94)]
     frame = rendered(shared, scene, *BLOB_SIZE, target_error=0.03)
     assert frame.stats.audited_pixels > 100
     # As of one material alone; were one pixel held against another's, the estimate could not fall below their difference.

@@ -24,7 +24,8 @@ def subject(request, shared):
     """A material and what it shows: points of the lobe alone, looked up in the constant alone; two sets of them differ by a tenth of
     what is asked below at most."""
     brdf = MATERIALS[request.param](shared)
-    one, other = (shown(shared, brdf, 1, 16, sampler="brdf", samples=16384, coarsest_level=0, seed=seed) for seed in (1, 2))
+    settings = {"sampler": "brdf", "samples": 16384, "coarsest_level": 0}
+    one, other = (shown(shared, brdf, 1, 16, seed=seed, **settings) for seed in (1, 2))
     covered = one.material > 0
     difference = (luminance(one) - luminance(other))[covered] / luminance(one)[covered]
     assert np.sqrt(np.mean(difference**2)) < 1e-3

@@ -42,7 +42,8 @@ def test_a_mirror_looks_the_map_up_as_it_is(shared, smooth):
     samples, and 5 % of the pixels have one. The others differ by where their points lie, within a peak some 1e-4 radians wide.
     """
     scene = scene_of(shared, shared.ggx(1e-4, (0.9, 0.9, 0.9)), smooth)
-    plain, filtered = (rendered(shared, scene, *SIZE, samples=16, sampler=sampler, **EVERY) for sampler in ("brdf", "filtered"))
+    plain, filtered = (rendered(shared, scene, *SIZE, samples=16, sampler=sampler, **EVERY)
+                       for sampler in ("brdf", "filtered"))
     covered = plain.material > 0
     apart = abs(filtered.color[covered] / plain.color[covered] - 1).max(axis=-1)
     assert (apart > 1e-3).mean() < 0.15
@@ -136,7 +137,8 @@ def test_tables_are_made_when_they_are_asked_for(context, hides, bytes_below):
 
 def test_a_reference_has_no_bias(shared, smooth):
     scene = scene_of(shared, shared.lambert(0.5), smooth)
-    frames = [rendered(shared, scene, *SIZE, method="reference", samples=16, sampler=sampler) for sampler in ("cut", "brdf")]
+    frames = [rendered(shared, scene, *SIZE, method="reference", samples=16, sampler=sampler)
+              for sampler in ("cut", "brdf")]
     assert frames[0].color.tobytes() == frames[1].color.tobytes()
     assert frames[0].stats.audited_pixels == 0 and frames[0].stats.bias_error == 0
 

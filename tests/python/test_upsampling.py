@@ -34,8 +34,8 @@ def shown_by(shared, environment, build, coarsest_level):
     scene.environment = environment
     up = build(shared, scene)
     scene.camera(EYE, (0, 0, 0), up, 0.6)
-    frame = rendered(shared, scene, SIDE, SIDE, bandwidth_scale=0.2, coarsest_level=coarsest_level, samples=1, sampler="brdf",
-                     sequence="random")
+    frame = rendered(shared, scene, SIDE, SIDE, bandwidth_scale=0.2, coarsest_level=coarsest_level, samples=1,
+                     sampler="brdf", sequence="random")
     right = np.cross(-EYE, up)
     down = np.cross(-EYE, right)
     return frame, np.stack([down / np.linalg.norm(down), right / np.linalg.norm(right)], 1)
