@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <string>
 
 #include "objects.h"
 
@@ -12,18 +12,12 @@ namespace lightband_python {
 namespace {
 
 std::string describe_shape(const std::vector<py::ssize_t>& shape) {
-    std::ostringstream text;
-    text << "(";
+    std::string text = "(";
     for (size_t i = 0; i < shape.size(); ++i) {
-        text << (i > 0 ? ", " : "");
-        if (shape[i] == any_length) {
-            text << "any";
-        } else {
-            text << shape[i];
-        }
+        text += i > 0 ? ", " : "";
+        text += shape[i] == any_length ? "any" : std::to_string(shape[i]);
     }
-    text << (shape.size() == 1 ? ",)" : ")");
-    return text.str();
+    return text + (shape.size() == 1 ? ",)" : ")");
 }
 
 // What an array argument must be, for messages.
@@ -95,9 +89,7 @@ FloatArray pack_floats(const Given& given, const py::array& array) {
     for (py::ssize_t i = 0; i < wide.size(); ++i) {
         to[i] = static_cast<float>(from[i]);
         if (std::isinf(to[i]) && std::isfinite(from[i])) {
-            std::ostringstream value;
-            value << from[i];
-            given.refuse_value("holds " + value.str() + ", which does not fit a 32-bit float, at most 3.4e38");
+            given.refuse_value("holds " + py::cast<std::string>(py::repr(py::float_(from[i]))) + ", which does not fit a 32-bit float, at most 3.4e38");
         }
     }
     return packed;

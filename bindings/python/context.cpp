@@ -1,6 +1,6 @@
 // lightband.Context: the device, and the maker of everything else.
 #include <filesystem>
-#include <sstream>
+#include <string>
 
 #include "arrays.h"
 #include "objects.h"
@@ -100,10 +100,8 @@ std::shared_ptr<Brdf> lambert(const Context& self, const Given& albedo) {
 
 std::shared_ptr<Brdf> ggx(const Context& self, float alpha, const Given& f0) {
     const lightband::Vector colour = to_colour(f0);
-    std::ostringstream description;
-    description.imbue(std::locale::classic());
-    description << "GGX, alpha " << alpha;
-    return make_brdf(self, in_library([&] { return self.handle.ggx(alpha, colour); }), description.str());
+    const std::string description = "GGX, alpha " + py::cast<std::string>(py::str("{:.6g}").format(alpha));
+    return make_brdf(self, in_library([&] { return self.handle.ggx(alpha, colour); }), description);
 }
 
 std::shared_ptr<Environment> load_environment(const Context& self, const Path& path) {

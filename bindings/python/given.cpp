@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "call.h"
 #include "lightband/lightband.hpp"
@@ -115,9 +114,7 @@ double to_double(const Given& given, const std::string& expected) {
 float to_float(const Given& given) {
     const double number = to_double(given);
     if (std::isfinite(number) && std::fabs(number) > double(std::numeric_limits<float>::max())) {
-        std::ostringstream text;
-        text << "is " << number << "; it must fit a 32-bit float, at most 3.4e38";
-        given.refuse_value(text.str());
+        given.refuse_value("is " + py::cast<std::string>(py::repr(py::float_(number))) + "; it must fit a 32-bit float, at most 3.4e38");
     }
     return float(number);
 }

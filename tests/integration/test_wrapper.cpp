@@ -1,6 +1,9 @@
 // The C++ wrapper in callbacks: objects that die there, exceptions, threads that end there.
 #include <pthread.h>
 
+#include <cstdio>
+#include <cstring>
+#include <locale>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -101,6 +104,46 @@ void a_thread_may_end_in_a_callback(void**) {
     objects.frame.render(objects.scene);
 }
 
+// As std::locale("de_DE.UTF-8") has it, which need not be installed.
+struct GermanNumbers : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+// What the library writes and reads while that locale is the host's: plan, message, and a picture that is saved and loaded again.
+std::vector<std::string> texts() {
+    Objects objects;
+    lightband::Frame frame = objects.context.frame(128, 64);
+    frame.set("samples", 4);
+    frame.render(objects.scene);
+    std::vector<std::string> result{frame.plan(objects.scene)};
+    const std::string explained = frame.explain();
+    result.push_back(explained.substr(0, explained.find("total")));  // what follows are milliseconds
+    try {
+        frame.set("samples", 1234567.5);
+    } catch (const lightband::Exception& error) {
+        result.emplace_back(error.what());
+    }
+    frame.save("locale.exr");
+    const lightband::Buffer map = objects.context.load_environment("locale.exr").map("radiance");
+    const float* radiance = map.data<float>();
+    result.emplace_back();
+    for (size_t i = 0; i < size_t(3) * 128 * 64; ++i) result.back() += std::to_string(radiance[i]) + " ";
+    std::remove("locale.exr");
+    return result;
+}
+
+void no_text_depends_on_the_locale_of_the_host(void**) {
+    const std::vector<std::string> classic = texts();
+    assert_int_equal(classic.size(), 4);
+    assert_non_null(std::strstr(classic[1].c_str(), " 8192 pixels"));
+    const std::locale before = std::locale::global(std::locale(std::locale::classic(), new GermanNumbers));
+    const std::vector<std::string> german = texts();
+    std::locale::global(before);
+    for (size_t i = 0; i < classic.size(); ++i) assert_true(german[i] == classic[i]);
+}
+
 }  // namespace
 
 int main() {
@@ -108,6 +151,7 @@ int main() {
         cmocka_unit_test(an_object_that_dies_in_a_callback_is_released_afterwards),
         cmocka_unit_test(an_exception_of_a_callback_comes_back),
         cmocka_unit_test(a_thread_may_end_in_a_callback),
+        cmocka_unit_test(no_text_depends_on_the_locale_of_the_host),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
