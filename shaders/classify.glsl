@@ -19,16 +19,16 @@ layout(binding = 2) uniform usampler2D materials;
 layout(binding = 3) uniform usamplerBuffer brdf_of;
 #if defined(PREDICTED)
 const float saturated = 0.5;  // bandwidth, cycles per pixel: no lattice is fine enough
-#include "pilots_say.glsl"
+#include "contrast.glsl"
 layout(binding = 4) uniform sampler2D bandwidth;
 layout(binding = 5) uniform sampler2D prediction;
 #endif
 #if defined(INTERPOLATE)
-#include "witnesses.glsl"
+#include "chosen_pixels.glsl"
 #endif
 #if defined(FURTHER_ROUND)
-layout(binding = 6) uniform usampler2D former_bins;  // of pixels that former rounds shaded, by what they measured
-uniform int fresh_steps;  // of the others, above what is predicted
+layout(binding = 6) uniform usampler2D previous_bins;  // of pixels that former rounds shaded, by what they measured
+uniform int new_pixel_steps;  // of the others, above what is predicted
 #endif
 layout(binding = 2, r8ui) writeonly uniform uimage2D decisions;
 layout(binding = 3, r32ui) readonly uniform uimage2D sample_counts;  // of former rounds
@@ -37,10 +37,10 @@ layout(binding = 0, std430) buffer Counts {
     uint histogram[];  // (BRDF slot * 2 + whether a former round shaded it) * BINS + bin
 } counts;
 
-void shade(ivec2 at, uint material, int bin, bool former, bool witness) {
-    imageStore(decisions, at, uvec4(first_bin + uint(bin) | (witness ? witness_bit : 0u)));
+void shade(ivec2 at, uint material, int bin, bool previous, bool validation) {
+    imageStore(decisions, at, uvec4(first_bin + uint(bin) | (validation ? validation_bit : 0u)));
     uint slot = texelFetch(brdf_of, int(material)).r;
-    atomicAdd(counts.histogram[(slot * 2u + uint(former)) * BINS + bin], 1u);
+    atomicAdd(counts.histogram[(slot * 2u + uint(previous)) * BINS + bin], 1u);
 }
 
 #if defined(INTERPOLATE)
@@ -81,7 +81,7 @@ vec4 weights_of_parents(ivec2 at, int level, float pixel_level, out bool sound) 
         sound = sound && !parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
         between += parents.weight[corner] * expected_at(parents.at[corner]);
     }
-    sound = sound && abs(contradiction(expected_at(at), between)) <= tolerance;
+    sound = sound && abs(relative_contrast(expected_at(at), between)) <= tolerance;
     return (sound ? 1.0 : doubtful) * vec4(parents.weight[0], parents.weight[1], parents.weight[2], parents.weight[3]);
 }
 
@@ -113,7 +113,7 @@ void main() {
     ivec2 at;
     if (!covered_pixel(at)) return;
     uint material = texelFetch(materials, at, 0).r;
-    bool former = imageLoad(sample_counts, at).r > 0u;
+    bool previous = imageLoad(sample_counts, at).r > 0u;
     if (is_bent(at)) atomicAdd(counts.bent, 1u);
     int bin = SHARE_ONE;
     bool chosen = false, interpolate = false;
@@ -135,15 +135,15 @@ void main() {
         weight *= doubtful;
     }
     imageStore(weights, at, weight);
-    interpolate = sound && (chosen || !former);
+    interpolate = sound && (chosen || !previous);
 #endif
     bin = share(variance, area);
 #endif
 #if defined(FURTHER_ROUND)
-    bin = former ? int(texelFetch(former_bins, at, 0).r) : clamp(bin + fresh_steps, 0, BINS - 1);
+    bin = previous ? int(texelFetch(previous_bins, at, 0).r) : clamp(bin + new_pixel_steps, 0, BINS - 1);
 #endif
     if (interpolate && !chosen)
         imageStore(decisions, at, uvec4(interpolate_it));
     else
-        shade(at, material, bin, former, interpolate);
+        shade(at, material, bin, previous, interpolate);
 }

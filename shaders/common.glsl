@@ -79,16 +79,13 @@ mat3 local_frame(vec3 n, vec3 wo) {
     return mat3(tangent, cross(n, tangent), n);
 }
 
-// PCG (O'Neill 2014) as a hash and as a generator.
-uint hash(uint value) {
-    uint state = value * 747796405u + 2891336453u;
-    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
+#include "hash.glsl"
+
+// The same as a generator.
 uint next_random(inout uint state) {
+    uint result = hash(state);
     state = state * 747796405u + 2891336453u;
-    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
+    return result;
 }
 
 // 24 bits, all that a float holds: in [0, 1).

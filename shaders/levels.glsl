@@ -14,7 +14,7 @@ uniform float first_scale;
 uniform int coarsest_level;
 
 // Nyquist: spacing <= 1 / (2 b), src/bandwidth/transport.h. A saturated bandwidth may be any number above what pixels can
-// show, and no scale makes it small. first_scale: before witnesses were heard; where they ask for more, the coarsest spacing becomes as
+// show, and no scale makes it small. first_scale: before validation pixels were compared; where their errors ask for more, the coarsest spacing becomes as
 // much finer, whatever was predicted: no multiple of nothing would.
 uint shading_level(float b, float scale, float first_scale, int coarsest_level) {
     if (b >= 0.5) return 0u;

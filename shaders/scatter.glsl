@@ -15,6 +15,6 @@ void main() {
     if (!covered_pixel(at)) return;
     uint decision = texelFetch(decisions, at, 0).r;
     if (!is_shaded(decision)) return;
-    uint slot = texelFetch(brdf_of, int(texelFetch(materials, at, 0).r)).r, former = uint(imageLoad(sample_counts, at).r > 0u);
-    entries[atomicAdd(cursors[(slot * 2u + former) * BINS + bin_of(decision)], 1u)] = uint(at.y) << 16 | uint(at.x);
+    uint slot = texelFetch(brdf_of, int(texelFetch(materials, at, 0).r)).r, previous = uint(imageLoad(sample_counts, at).r > 0u);
+    entries[atomicAdd(cursors[(slot * 2u + previous) * BINS + bin_of(decision)], 1u)] = uint(at.y) << 16 | uint(at.x);
 }

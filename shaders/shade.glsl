@@ -161,19 +161,19 @@ void main() {
     uint wanted = samples[bin_of(texelFetch(decisions, at, 0).r)], stored = imageLoad(sample_counts, at).r;
     uint had = part * uint(PART_SAMPLES), total = min(wanted, had + uint(PART_SAMPLES));
     // What a former round drew stays, or is drawn anew (src/picture/budget.h).
-    if (part == 0u ? wanted < WORTH_REDRAWING * stored : stored != (had | unfinished)) return;
+    if (part == 0u ? wanted < LEAST_RESAMPLING_FACTOR * stored : stored != (had | unfinished)) return;
     // The first replicate holds the odd sample. One sample alone has no spread; it is taken to be as uncertain as it is bright.
     uvec2 had_each = uvec2((had + 1u) / 2u, had / 2u), each = uvec2((total + 1u) / 2u, total / 2u);
 
-    vec4 former = had > 0u ? imageLoad(radiances, at) : vec4(0);
+    vec4 previous = had > 0u ? imageLoad(radiances, at) : vec4(0);
     float former_spread = had > 0u ? imageLoad(spreads, at).r : 0.0;
-    vec2 luminances = vec2(had_each) * (luminance(former.rgb) + former_spread * vec2(1, -1));
+    vec2 luminances = vec2(had_each) * (luminance(previous.rgb) + former_spread * vec2(1, -1));
     Pixel pixel = pixel_at(at);
 #if defined(SAMPLER_COMBINED)
     find_clusters(pixel);
 #endif
     uint state = hash(entry ^ hash(seed ^ hash(had)));
-    vec4 sum = former * float(had);
+    vec4 sum = previous * float(had);
     draw(pixel, each - had_each, total, sum, luminances, state);
     vec4 mean = sum / float(total);
     luminances /= vec2(max(each, uvec2(1)));

@@ -140,7 +140,7 @@ py::object stats(const Frame& self) {
         stats.width, stats.height, stats.frames, stats.covered_pixels, stats.shaded_pixels, stats.samples,
         stats.saturated_pixels, stats.bent_normals, stats.device_bytes, stats.milliseconds,
         stats.bandwidth_milliseconds, stats.shading_milliseconds, stats.error, stats.noise_error,
-        stats.interpolation_error, stats.capped_pixels, stats.rounds, stats.audited_pixels, stats.bias_error,
+        stats.interpolation_error, stats.capped_pixels, stats.rounds, stats.control_pixels, stats.bias_error,
         stats.sampler_replaced != 0);
     return call_python(py::module_::import("lightband._records").attr("FrameStats"), values);
 }

@@ -349,7 +349,7 @@ typedef struct lb_frame_stats {
     uint64_t covered_pixels;     /* pixels that see a mesh */
     uint64_t shaded_pixels;      /* those whose integral was computed; the others were interpolated */
     uint64_t samples;            /* light samples that the picture is made of, counted by the shaders themselves, all frames;
-                                    those that were drawn anew, of probes and of audits are not among them */
+                                    those of pixels that were sampled again, of pilot and control samples are not among them */
     uint64_t saturated_pixels;   /* covered pixels whose predicted bandwidth reached 0.5 cycles per pixel */
     uint64_t bent_normals;       /* covered pixels whose shading normal faced away and was turned to the eye */
     uint64_t device_bytes;       /* device memory held by the scene and this frame */
@@ -359,17 +359,17 @@ typedef struct lb_frame_stats {
     double error;                  /* relative error of the frame, as the frame itself estimates it (docs/conventions.md):
                                       root of the squares of the three parts: noise,
                                       interpolation and bias. The field "error" holds it pixel by pixel */
-    double noise_error;            /* part of it that more samples would lessen */
-    double interpolation_error;    /* part of it that finer levels would lessen */
-    uint64_t capped_pixels;        /* pixels whose samples reached the setting "max_samples"; they may have deserved more */
+    double noise_error;            /* part of it that more samples would reduce */
+    double interpolation_error;    /* part of it that finer levels would reduce */
+    uint64_t capped_pixels;        /* pixels whose samples reached the setting "max_samples"; their error may be larger than the others' */
     uint32_t rounds;               /* of shading: 1 where neither an error nor a time was asked for */
-    uint32_t audited_pixels;       /* pixels that were also shaded with more samples, to know how far the others err; 0 where
+    uint32_t control_pixels;       /* pixels that were also shaded with more samples, to know how far the others err; 0 where
                                       the setting "sampler" has no bias or a "time_budget" leaves no time for them */
-    double bias_error;             /* part of error that an audit found beyond the other two: what a biased sampler gets wrong
-                                      in the same way at every seed, and what replicates and witnesses do not tell; more
-                                      samples lessen it */
-    uint32_t sampler_replaced;     /* 1: samples without bias contradicted the sampler "cut", as under tables with black parts; the
-                                      picture was drawn by "combined" or "brdf" instead. lb_frame_explain says by which. Else 0 */
+    double bias_error;             /* part of error that control samples see beyond the other two: the bias of a sampler, which is
+                                      the same at every seed, and errors that replicates and validation pixels do not show;
+                                      more samples reduce it */
+    uint32_t sampler_replaced;     /* 1: the sampler "cut" did not agree with samples without bias, as under tables with black
+                                      parts; the picture was shaded by "combined" or "brdf" instead. lb_frame_explain says by which. Else 0 */
 } lb_frame_stats;
 
 #define LB_FRAME_STATS_INIT \

@@ -36,8 +36,8 @@ bool is_comparable(const RoundPixels& pixels, size_t at) {
     return pixels.material[at] != 0 && is_shaded(pixels.decision[at]) && pixels.spread[4 * at + 3] != 0;
 }
 
-// A squared error counts up to 1, as those of audited and of validation pixels do.
-double clamped_square(double square) { return std::clamp(square, -AuditSum::largest_square, AuditSum::largest_square); }
+// A squared error counts up to 1, as those of control and of validation pixels do.
+double clamped_square(double square) { return std::clamp(square, -BiasEstimate::largest_square, BiasEstimate::largest_square); }
 
 Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
     const double scale = scale_of(pixels, at, mean);
@@ -51,9 +51,9 @@ Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
 // deviations are D = N + I here and D' = N' + I' there, N being noise and I the error of interpolation. Spreads tell of N but may miss a
 // part of it; then D - N is too much. Across twice the distance the squared error of interpolation is at least twice as large (beside an
 // edge; 16 times where the picture is smooth), while noise falls as the spreads do: so D' - (N' / N) D >= (2 - N' / N) I as well.
-double interpolation_of(const Sums& here, const Sums& coarser, double truth) {
+double interpolation_of(const Sums& here, const Sums& coarser, double calibration) {
     constexpr double least_growth = 2;
-    const double most = std::max(here.deviation - truth * here.noise, 0.0) / here.count;
+    const double most = std::max(here.deviation - calibration * here.noise, 0.0) / here.count;
     if (!(coarser.count > 0) || !(here.noise > 0)) return most;
     const double fall = std::min(coarser.noise / coarser.count / (here.noise / here.count), 1.0);
     const double grown = std::max(coarser.deviation / coarser.count - fall * here.deviation / here.count, 0.0);
@@ -64,9 +64,9 @@ double interpolation_of(const Sums& here, const Sums& coarser, double truth) {
 struct Split {
     double interpolation = 0, noise = 0;
 };
-Split split(const Sums& here, const Sums& coarser, double truth) {
-    const double interpolation = interpolation_of(here, coarser, truth);
-    return {interpolation, std::max(here.deviation / here.count - interpolation, truth * here.noise / here.count)};
+Split split(const Sums& here, const Sums& coarser, double calibration) {
+    const double interpolation = interpolation_of(here, coarser, calibration);
+    return {interpolation, std::max(here.deviation / here.count - interpolation, calibration * here.noise / here.count)};
 }
 
 // (1 - p) y + p z errs least at p = (var y - cov(y, z)) / (var(z - y) + squared error of interpolation).
@@ -138,10 +138,10 @@ private:
 
 // A pixel's own values are not among those that choose its part: else what it shows would lean to whatever its noise made look good, and
 // its spread would no longer tell the error of that.
-std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const Audit& audit, const Tiles& tiles, uint32_t width, uint32_t coarsest,
+std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const ControlSet& control, const Tiles& tiles, uint32_t width, uint32_t coarsest,
                                      uint32_t frames) {
     if (tiles.count == 0) return {};
-    const double mean = mean_luminance(pixels), truth = truth_of_spreads(pixels, audit, mean);
+    const double mean = mean_luminance(pixels), calibration = spread_calibration(pixels, control, mean);
     const Pools pools(pixels, tiles, width, coarsest, mean);
     std::vector<uint8_t> parts(pixels.material.size());
     for (size_t i = 0; i < parts.size(); ++i) {
@@ -150,7 +150,7 @@ std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const Audit& aud
         if (kind != Pools::finest && kind != Pools::finest_doubtful) continue;
         const Sums around = pools.around(i);
         if (!(around.count > 0) || !(around.noise > 0)) continue;
-        const Split squares = split(around, kind == Pools::finest ? pools.coarser_around(i, around) : Sums(), truth);
+        const Split squares = split(around, kind == Pools::finest ? pools.coarser_around(i, around) : Sums(), calibration);
         const double most = kind == Pools::finest ? sure_deviations : sure_deviations_doubtful;
         if (pools.of(i).deviation > most * most * squares.noise) continue;
         parts[i] = uint8_t(std::lround(255 * best_part(around, squares, frames)));

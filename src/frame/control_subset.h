@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "frame/audit.h"
+#include "frame/control_set.h"
 #include "frame/recheck.h"
 #include "frame/run_state.h"
 
@@ -18,7 +18,7 @@ public:
     // Chooses the pixels, and how many samples they get; false: the frame needs none.
     bool choose();
     bool needs_control() const { return effort_.samples > 0; }
-    bool needs_pilot() const { return effort_.probe > 0; }
+    bool needs_pilot() const { return effort_.pilot > 0; }
     bool needs_recheck() const;
     // The first round plans so many samples a pixel: whether the subset has too few to tell of them; then it is to be shaded again.
     bool is_outgrown_by(double planned);
@@ -32,8 +32,8 @@ public:
     bool contradicted() const { return contradicted_; }  // whether the sampler is to be replaced
     void tell(Forecast* forecast) const;                 // what pilot samples say of the frame's noise
 
-    const Audit& audit() const { return audit_; }
-    double part() const { return audited_; }  // of all pixels, that are compared with more samples
+    const ControlSet& control() const { return control_; }
+    double part() const { return part_; }  // of all pixels, that are compared with more samples
 
 private:
     // A pixel that is to be rechecked: chosen by chance; and one where pilot samples and control samples differ.
@@ -41,17 +41,17 @@ private:
         size_t place;
         bool by_chance, differs;
     };
-    std::vector<Audit::Pixel> shade_alike(const std::vector<uint32_t>& pixels, const Settings& settings, uint32_t samples, uint32_t seed) const;
+    std::vector<ControlSet::Pixel> shade_alike(const std::vector<uint32_t>& pixels, const Settings& settings, uint32_t samples, uint32_t seed) const;
     std::vector<Rechecked> choose_rechecked() const;
     double harmless_difference() const;
-    double probed_error() const;
+    double pilot_error() const;
 
     RunState& run_;
-    Audit::Effort effort_;
+    ControlSet::Effort effort_;
     std::vector<uint32_t> pixels_;        // y * width + x
-    Audit audit_;
-    double audited_ = 0;
-    std::vector<Audit::Pixel> pilots_;    // the same pixels with pilot samples
+    ControlSet control_;
+    double part_ = 0;
+    std::vector<ControlSet::Pixel> pilots_;    // the same pixels with pilot samples
     uint32_t pilot_samples_ = 0;          // of each; 0: there are none
     uint32_t unbiased_samples_ = 0;       // of each pixel that was rechecked
     bool contradicted_ = false;

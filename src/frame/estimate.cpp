@@ -14,76 +14,78 @@ double luminance_at(const RoundPixels& pixels, size_t at) {
     return luminance(Vec3(rgb[0], rgb[1], rgb[2]));
 }
 
-// What a shaded pixel shows is (1 - p) times its own value and p times the interpolated one, p being neighbour_part: so are its spread and,
+// What a shaded pixel displays is (1 - p) times its own value and p times the interpolated one, p being neighbour_part: so are its spread and,
 // with squared weights, its variance.
-double shown_luminance(const RoundPixels& pixels, size_t at) {
+double displayed_luminance(const RoundPixels& pixels, size_t at) {
     return luminance_at(pixels, at) + (pixels.combined ? 0 : neighbour_part(pixels, at) * double(pixels.spread[4 * at + 1]));
 }
-double shown_spread(const RoundPixels& pixels, size_t at) {
+double displayed_spread(const RoundPixels& pixels, size_t at) {
     return pixels.spread[4 * at] + neighbour_part(pixels, at) * double(pixels.spread[4 * at + 2]);
 }
-double shown_variance(const RoundPixels& pixels, size_t at) {
+double displayed_variance(const RoundPixels& pixels, size_t at) {
     const double part = neighbour_part(pixels, at), own = variance_of_mean(pixels, at);
     return part > 0 ? (1 - part) * (1 - part) * own + part * part * std::abs(double(pixels.spread[4 * at + 3])) : own;
 }
 
-// The spread of a single pair of replicates has one degree of freedom; as many pixels as this say "independent samples" first, so
-// that a tiny frame is not believed to be free of noise by luck.
+// The spread of a single pair of replicates has one degree of freedom: so many pixels with the noise of independent samples are added, or a
+// tiny frame might be estimated to be free of noise by chance.
 constexpr double prior_pixels = 8;
 
-// Squared errors of the witnesses of one slot.
-struct WitnessSums {
+// Squared errors of interpolation of the validation pixels of one slot.
+struct ValidationSums {
     double sum = 0, squares = 0;
 };
 
-// A pixel shows between these parts of what the prediction expects: a sample that is far too bright would else raise the mean that
-// its own error is measured by, and hide in it; a few that miss the light would make any error look large. Sixteen pilots know the
-// mean to better than that; but where they found no lamp, not so well as many samples that did: what a pixel shows less three of its
-// standard deviations is believed.
+// A pixel's error is relative to what it displays, clamped to these parts of what was predicted: a sample that is far too bright would else
+// raise the luminance that its own error is divided by; a few that miss the light would make any error look large. Sixteen prediction
+// directions know the mean to better than that, unless they miss a small source that many samples find: the displayed value less three of
+// its standard deviations counts in any case.
 constexpr double least_expected = 0.5, most_expected = 1.5, sure_deviations = 3;
 
-// A pixel that an audit looked at, held against it; squared and relative.
-struct Audited {
+// A pixel of the control set compared with its control samples; squared and relative.
+struct Comparison {
     size_t at;
     double scale;
-    bool overtaken;       // by its own samples: its spreads are believed
-    double deviation;     // of what was drawn there: not squared
-    double own_part;      // its samples in one frame, in parts of the audit's: frames share their cuts; 0: the audit has no bias
-    double drawn;         // what was drawn there
-    double shown;         // what the pixel shows: the same, or a mean of it and the interpolated value
-    double interpolated;  // what interpolation would show, at a witness
+    bool outgrown;        // the pixel has too many samples itself: its spread is taken for its error
+    double deviation;     // of the pixel's own samples: not squared
+    double own_part;      // its samples in one frame over the control samples, as frames share their light cuts; 0: these have no bias
+    double sampled;       // error of the pixel's own samples
+    double displayed;     // of what it displays: the same, or a mean of it and the interpolated value
+    double interpolated;  // of the interpolated value, at a validation pixel
 
-    void add_to(AuditSum* sum, double square, double told) const { overtaken ? sum->add_believed(told) : sum->add(square, told); }
+    void add_to(BiasEstimate* sum, double square, double estimated) const {
+        outgrown ? sum->add_clamped(estimated) : sum->add(square, estimated);
+    }
 };
 
 // frames: over which the picture is a mean.
-std::vector<Audited> held_against(const RoundPixels& pixels, const Audit& audit, uint32_t frames, double mean) {
-    std::vector<Audited> result;
-    for (const Audit::Pixel& seen : audit.pixels) {
+std::vector<Comparison> compare(const RoundPixels& pixels, const ControlSet& control, uint32_t frames, double mean) {
+    std::vector<Comparison> result;
+    for (const ControlSet::Pixel& seen : control.pixels) {
         const size_t i = seen.at;
         const double scale = scale_of(pixels, i, mean), samples = double(pixels.sample_count[i]) * frames;
         const double known = scale_of(seen, mean);
         if (!(scale > 0) || !(known > 0) || samples == 0) continue;
-        const double shown = luminance_at(pixels, i), drawn = audit.square(seen, shown, known, samples);
-        const bool witness = is_witness(pixels.decision[i]);
-        const double part = neighbour_part(pixels, i), left = pixels.combined ? 1 - part : 1;  // of the deviation, beyond `shown`
-        result.push_back({i, scale, !audit.tells_of(seen, samples), (shown - double(seen.mean)) / known,
-                          seen.biased ? double(pixels.sample_count[i]) / audit.samples : 0, drawn,
-                          part > 0 ? audit.square_of_other(seen, shown_luminance(pixels, i), known, drawn, samples) : drawn,
-                          witness ? audit.square_of_other(seen, shown + left * pixels.spread[4 * i + 1], known, drawn, samples) : 0});
+        const double own = luminance_at(pixels, i), sampled = control.square(seen, own, known, samples);
+        const bool validation = is_validation(pixels.decision[i]);
+        const double part = neighbour_part(pixels, i), left = pixels.combined ? 1 - part : 1;  // of the deviation of the interpolated value, beyond `own`
+        result.push_back({i, scale, !control.is_better_than(seen, samples), (own - double(seen.mean)) / known,
+                          seen.biased ? double(pixels.sample_count[i]) / control.samples : 0, sampled,
+                          part > 0 ? control.squared_error_of_other(seen, displayed_luminance(pixels, i), known, sampled, samples) : sampled,
+                          validation ? control.squared_error_of_other(seen, own + left * pixels.spread[4 * i + 1], known, sampled, samples) : 0});
     }
     return result;
 }
 
-// The part of the covered pixels that is audited.
-double part_of(const RoundPixels& pixels, const std::vector<Audited>& audited) {
+// The part of the covered pixels that is in the control set.
+double part_of(const RoundPixels& pixels, const std::vector<Comparison>& compared) {
     const auto unseen = std::count(pixels.material.begin(), pixels.material.end(), uint8_t(0));
-    return double(audited.size()) / std::max(double(pixels.material.size()) - double(unseen), 1.0);
+    return double(compared.size()) / std::max(double(pixels.material.size()) - double(unseen), 1.0);
 }
 
-double truth_of_spreads(const RoundPixels& pixels, const std::vector<Audited>& audited) {
-    AuditSum sum(part_of(pixels, audited));
-    for (const Audited& pixel : audited) pixel.add_to(&sum, pixel.drawn, std::pow(pixels.spread[4 * pixel.at] / pixel.scale, 2));
+double spread_calibration(const RoundPixels& pixels, const std::vector<Comparison>& compared) {
+    BiasEstimate sum(part_of(pixels, compared));
+    for (const Comparison& pixel : compared) pixel.add_to(&sum, pixel.sampled, std::pow(pixels.spread[4 * pixel.at] / pixel.scale, 2));
     return 1 + std::min(sum.beyond(1).mean, 0.0);
 }
 
@@ -92,41 +94,41 @@ double interpolated_part(const RoundPixels& pixels, size_t at) {
     return is_interpolated(pixels.decision[at]) ? 1 : neighbour_part(pixels, at);
 }
 
-// Squared error of interpolation at a witness. The square of its deviation holds the noise of both values; what the replicates tell
-// of that is taken off, as far as it is true.
-double witnessed(const RoundPixels& pixels, size_t at, double scale, double truth) {
+// Squared error of interpolation at a shaded pixel that was compared with it. The squared deviation contains the noise of both values: what
+// the replicates estimate of that, times their calibration, is subtracted.
+double interpolation_square(const RoundPixels& pixels, size_t at, double scale, double calibration) {
     const double deviation = pixels.spread[4 * at + 1] / scale, difference = pixels.spread[4 * at + 2] / scale;
-    return std::clamp(deviation * deviation - truth * difference * difference, -AuditSum::largest_square, AuditSum::largest_square);
+    return std::clamp(deviation * deviation - calibration * difference * difference, -BiasEstimate::largest_square, BiasEstimate::largest_square);
 }
 
-double hidden_of(const std::vector<Audited>& audited) {
-    SharedError shared;
-    for (const Audited& pixel : audited)
-        if (!pixel.overtaken && pixel.own_part > 0) shared.add(pixel.deviation, pixel.own_part);
-    return shared.hidden();
+double common_mode_of(const std::vector<Comparison>& compared) {
+    CommonModeError shared;
+    for (const Comparison& pixel : compared)
+        if (!pixel.outgrown && pixel.own_part > 0) shared.add(pixel.deviation, pixel.own_part);
+    return shared.unseen();
 }
 
-// Of the pixels that might be interpolated, of which audited ones are witnesses, the part that is. Others show what was drawn there when
-// they were witnesses of this round or a former one.
-double interpolated_part(const RoundPixels& pixels, const std::vector<Audited>& audited, const ErrorEstimate& estimate) {
-    double covered = 0, interpolated = 0, witnesses = 0;
+// Control pixels that might be interpolated are validation pixels. Of the pixels that might be, this part is interpolated; the others
+// display samples that this round or one before drew there.
+double interpolated_part(const RoundPixels& pixels, const std::vector<Comparison>& compared, const ErrorEstimate& estimate) {
+    double covered = 0, interpolated = 0, validation = 0;
     for (const ErrorEstimate::Slot& slot : estimate.slots) {
         covered += double(slot.covered);
         interpolated += double(slot.interpolated);
     }
-    for (const Audited& pixel : audited) witnesses += is_witness(pixels.decision[pixel.at]);
-    return witnesses > 0 ? std::min(interpolated / covered / (witnesses / double(audited.size())), 1.0) : 0;
+    for (const Comparison& pixel : compared) validation += is_validation(pixels.decision[pixel.at]);
+    return validation > 0 ? std::min(interpolated / covered / (validation / double(compared.size())), 1.0) : 0;
 }
 
-// Unbiased samples of all pixels share the directions that were drawn from the map, and err alike by about so much (sampling/map_sampler,
+// Unbiased samples of all pixels share the directions of the map, so that about so much of their error is common (sampling/map_sampler,
 // docs/decisions/0006).
 constexpr double error_of_directions = 0.002;
 
-// What all pixels may err by alike without that unbiased samples show it: the squared standard error of the mean deviation from them, and
-// what they err by alike themselves.
-double below_notice(const std::vector<Audited>& audited) {
+// A common error of all pixels that a comparison with unbiased samples does not show: the squared standard error of the mean deviation from
+// them, and their own common error.
+double unseen_by_unbiased(const std::vector<Comparison>& compared) {
     double count = 0, sum = 0, squares = 0;
-    for (const Audited& pixel : audited) {
+    for (const Comparison& pixel : compared) {
         if (pixel.own_part > 0) return 0;
         ++count;
         sum += pixel.deviation;
@@ -136,23 +138,23 @@ double below_notice(const std::vector<Audited>& audited) {
     return std::max(squares - sum * sum / count, 0.0) / (count - 1) / count + error_of_directions * error_of_directions;
 }
 
-// Audited witnesses stand for the pixels that might be interpolated, whether they are or not.
-void add_bias(const RoundPixels& pixels, const std::vector<Audited>& audited, double truth, ErrorEstimate* estimate) {
-    AuditSum sum(part_of(pixels, audited));
-    const double part = interpolated_part(pixels, audited, *estimate), hidden = hidden_of(audited);
-    for (const Audited& pixel : audited) {
+// Validation pixels of the control set stand for the pixels that might be interpolated, whether they are or not.
+void add_bias(const RoundPixels& pixels, const std::vector<Comparison>& compared, double calibration, ErrorEstimate* estimate) {
+    BiasEstimate sum(part_of(pixels, compared));
+    const double part = interpolated_part(pixels, compared, *estimate), common = common_mode_of(compared);
+    for (const Comparison& pixel : compared) {
         const double per_scale = estimate->stratification / (pixel.scale * pixel.scale);
         const double own_part = neighbour_part(pixels, pixel.at);
-        double square = pixel.shown, told = per_scale * shown_variance(pixels, pixel.at);
-        if (own_part > 0) told += own_part * own_part * witnessed(pixels, pixel.at, pixel.scale, truth);
-        if (is_witness(pixels.decision[pixel.at])) {
+        double square = pixel.displayed, estimated = per_scale * displayed_variance(pixels, pixel.at);
+        if (own_part > 0) estimated += own_part * own_part * interpolation_square(pixels, pixel.at, pixel.scale, calibration);
+        if (is_validation(pixels.decision[pixel.at])) {
             square += part * (pixel.interpolated - square);
-            told += part * (per_scale * pixels.spread[4 * pixel.at + 3] + witnessed(pixels, pixel.at, pixel.scale, truth) - told);
+            estimated += part * (per_scale * pixels.spread[4 * pixel.at + 3] + interpolation_square(pixels, pixel.at, pixel.scale, calibration) - estimated);
         }
-        pixel.add_to(&sum, square + (pixel.own_part > 0 ? hidden : 0), told);
+        pixel.add_to(&sum, square + (pixel.own_part > 0 ? common : 0), estimated);
     }
-    const AuditSum::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
-    estimate->bias = std::max(bias.mean, (AuditSum::least_true - 1) * estimate->noise) + below_notice(audited);
+    const BiasEstimate::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
+    estimate->bias = std::max(bias.mean, (BiasEstimate::least_bias_ratio - 1) * estimate->noise) + unseen_by_unbiased(compared);
     estimate->bias_deviation = bias.deviation;
 }
 
@@ -167,14 +169,14 @@ struct NoiseSums {
             ++covered;
             const double scale = scale_of(pixels, i, mean_luminance);
             if (!(scale > 0)) continue;  // a frame without light has no error
-            const double spread = shown_spread(pixels, i) / scale, variance = shown_variance(pixels, i) / (scale * scale);
+            const double spread = displayed_spread(pixels, i) / scale, variance = displayed_variance(pixels, i) / (scale * scale);
             spreads += spread * spread;
             variances += variance;
             squares += variance * variance;
         }
     }
 
-    void tell(ErrorEstimate* estimate) const {
+    void write(ErrorEstimate* estimate) const {
         estimate->noise = estimate->stratification * variances / covered;
         estimate->noise_deviation = estimate->stratification * std::sqrt(squares) / covered;
     }
@@ -182,18 +184,18 @@ struct NoiseSums {
 
 }  // namespace
 
-double scale_of(double shown, double expected, double mean_luminance) {
-    if (expected > 0) shown = std::clamp(shown, least_expected * expected, most_expected * expected);
-    return shown + dark_part * mean_luminance;
+double scale_of(double displayed, double expected, double mean_luminance) {
+    if (expected > 0) displayed = std::clamp(displayed, least_expected * expected, most_expected * expected);
+    return displayed + dark_part * mean_luminance;
 }
 
 double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
-    const double shown = shown_luminance(pixels, at), sure = shown - sure_deviations * std::sqrt(shown_variance(pixels, at));
-    const double scale = scale_of(shown, pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
+    const double displayed = displayed_luminance(pixels, at), sure = displayed - sure_deviations * std::sqrt(displayed_variance(pixels, at));
+    const double scale = scale_of(displayed, pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
     return std::max(scale, sure + dark_part * mean_luminance);
 }
 
-double scale_of(const Audit::Pixel& seen, double mean_luminance) { return seen.mean + dark_part * mean_luminance; }
+double scale_of(const ControlSet::Pixel& seen, double mean_luminance) { return seen.mean + dark_part * mean_luminance; }
 
 double ErrorEstimate::error() const { return std::sqrt(noise + interpolation + bias); }
 
@@ -205,14 +207,14 @@ double mean_luminance(const RoundPixels& pixels) {
     double sum = 0, covered = 0;
     for (size_t i = 0; i < pixels.material.size(); ++i) {
         if (pixels.material[i] == 0) continue;
-        sum += shown_luminance(pixels, i);
+        sum += displayed_luminance(pixels, i);
         ++covered;
     }
     return covered > 0 ? sum / covered : 0;
 }
 
-double truth_of_spreads(const RoundPixels& pixels, const Audit& audit, double mean_luminance) {
-    return truth_of_spreads(pixels, held_against(pixels, audit, 1, mean_luminance));
+double spread_calibration(const RoundPixels& pixels, const ControlSet& control, double mean_luminance) {
+    return spread_calibration(pixels, compare(pixels, control, 1, mean_luminance));
 }
 
 double variance_of_mean(const RoundPixels& pixels, size_t at) {
@@ -223,7 +225,7 @@ double variance_of_mean(const RoundPixels& pixels, size_t at) {
 }
 
 ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots,
-                             const Audit& audit, const Tiles& tiles) {
+                             const ControlSet& control, const Tiles& tiles) {
     ErrorEstimate result;
     result.slots.resize(slots);
     result.mean_luminance = mean_luminance(pixels);
@@ -242,24 +244,24 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         const double prior = prior_pixels * sums.variances / sums.covered;
         result.stratification = (sums.spreads + prior) / (sums.variances + prior);
     }
-    sums.tell(&result);
-    const std::vector<Audited> audited = held_against(pixels, audit, 1, result.mean_luminance);
-    const double truth = truth_of_spreads(pixels, audited);
-    std::vector<WitnessSums> witnesses(slots);
+    sums.write(&result);
+    const std::vector<Comparison> compared = compare(pixels, control, 1, result.mean_luminance);
+    const double calibration = spread_calibration(pixels, compared);
+    std::vector<ValidationSums> validation(slots);
     for (size_t i = 0; i < pixels.material.size(); ++i) {
         const double part = neighbour_part(pixels, i);
-        if (pixels.material[i] == 0 || !(is_witness(pixels.decision[i]) || part > 0)) continue;
+        if (pixels.material[i] == 0 || !(is_validation(pixels.decision[i]) || part > 0)) continue;
         const double scale = scale_of(pixels, i, result.mean_luminance);
         if (!(scale > 0)) continue;
         const uint32_t slot = slot_of[pixels.material[i] - 1u];
-        result.slots[slot].combined += part * part * witnessed(pixels, i, scale, truth);
-        if (!is_witness(pixels.decision[i])) continue;
-        ++result.slots[slot].witnesses;
-        const double square = witnessed(pixels, i, scale, truth);
-        witnesses[slot].sum += square;
-        witnesses[slot].squares += square * square;
+        result.slots[slot].combined += part * part * interpolation_square(pixels, i, scale, calibration);
+        if (!is_validation(pixels.decision[i])) continue;
+        ++result.slots[slot].validation;
+        const double square = interpolation_square(pixels, i, scale, calibration);
+        validation[slot].sum += square;
+        validation[slot].squares += square * square;
         ErrorEstimate::Tile& tile = result.tiles[tiles.of[i]];
-        ++tile.witnesses;
+        ++tile.validation;
         tile.sum += square;
         tile.squares += square * square;
     }
@@ -267,26 +269,26 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
         ErrorEstimate::Slot& own = result.slots[slot];
         own.interpolation = std::max(own.combined, 0.0) / std::max(double(own.covered), 1.0);
         result.interpolation += own.interpolation * double(own.covered) / sums.covered;
-        if (own.witnesses == 0) continue;
-        const double count = double(own.witnesses), mean = witnesses[slot].sum / count;
+        if (own.validation == 0) continue;
+        const double count = double(own.validation), mean = validation[slot].sum / count;
         const double part = double(own.interpolated) / double(own.covered);
         const double interpolated = std::max(mean, 0.0) * part;
         own.interpolation += interpolated;
-        own.interpolation_deviation = std::sqrt(std::max(witnesses[slot].squares / count - mean * mean, 0.0) / count) * part;
+        own.interpolation_deviation = std::sqrt(std::max(validation[slot].squares / count - mean * mean, 0.0) / count) * part;
         result.interpolation += interpolated * double(own.covered) / sums.covered;
         result.interpolation_deviation =
             std::hypot(result.interpolation_deviation, own.interpolation_deviation * double(own.covered) / sums.covered);
     }
-    add_bias(pixels, audited, truth, &result);
+    add_bias(pixels, compared, calibration, &result);
     return result;
 }
 
-void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate) {
+void average_error(const RoundPixels& pixels, const ControlSet& control, uint32_t frames, ErrorEstimate* estimate) {
     estimate->stratification /= frames;
     estimate->mean_luminance = mean_luminance(pixels);
-    if (const NoiseSums sums(pixels, estimate->mean_luminance); sums.covered > 0) sums.tell(estimate);
-    const std::vector<Audited> audited = held_against(pixels, audit, frames, estimate->mean_luminance);
-    add_bias(pixels, audited, truth_of_spreads(pixels, audited), estimate);
+    if (const NoiseSums sums(pixels, estimate->mean_luminance); sums.covered > 0) sums.write(estimate);
+    const std::vector<Comparison> compared = compare(pixels, control, frames, estimate->mean_luminance);
+    add_bias(pixels, compared, spread_calibration(pixels, compared), estimate);
 }
 
 std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,
@@ -295,15 +297,15 @@ std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& 
     for (size_t i = 0; i < pixels.material.size(); ++i)
         if (const double part = interpolated_part(pixels, i); part > 0)
             shape_sums[slot_of[pixels.material[i] - 1u]] += part * part * shape[i];
-    // Where an audit found less than the spreads tell, every pixel's noise is less in that proportion.
-    const double known_better =
+    // Where control samples see less error than the spreads estimate, every pixel's noise is less in that proportion.
+    const double noise_factor =
         estimate.bias < 0 ? estimate.stratification * estimate.shading() / estimate.noise : estimate.stratification;
     std::vector<float> errors(pixels.material.size());
     for (size_t i = 0; i < errors.size(); ++i) {
         if (pixels.material[i] == 0) continue;
         const double scale = scale_of(pixels, i, estimate.mean_luminance);
         if (!(scale > 0)) continue;
-        double square = known_better * shown_variance(pixels, i) / (scale * scale) + std::max(estimate.bias, 0.0);
+        double square = noise_factor * displayed_variance(pixels, i) / (scale * scale) + std::max(estimate.bias, 0.0);
         if (const double part = interpolated_part(pixels, i); part > 0) {
             const uint32_t slot = slot_of[pixels.material[i] - 1u];
             const ErrorEstimate::Slot& own = estimate.slots[slot];

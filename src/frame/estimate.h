@@ -1,4 +1,4 @@
-// What a finished round says of its error: noise from the spread of two replicates, interpolation from witnesses, bias from an audit.
+// The error of a finished round: noise from the spread of two replicates, interpolation from validation pixels, bias from the control set.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "frame/audit.h"
+#include "frame/control_set.h"
 #include "picture/tiles.h"
 
 namespace lightband {
@@ -16,11 +16,11 @@ namespace lightband {
 constexpr double dark_part = 0.01;
 
 // What a pixel's error is relative to. expected: as predicted; 0 where nothing was.
-double scale_of(double shown, double expected, double mean_luminance);
+double scale_of(double displayed, double expected, double mean_luminance);
 struct RoundPixels;
 double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance);
-// An audit knows better than pilots what a pixel should show.
-double scale_of(const Audit::Pixel& seen, double mean_luminance);
+// Control samples know better than the prediction what a pixel should show.
+double scale_of(const ControlSet::Pixel& pixel, double mean_luminance);
 
 // A round's pixels as read back; all arrays of one length, but radiance and spread (four each) interleaved: targets.h.
 struct RoundPixels {
@@ -37,42 +37,42 @@ struct RoundPixels {
 // Mean squares over the covered pixels.
 struct ErrorEstimate {
     struct Slot {
-        uint64_t covered = 0, interpolated = 0, witnesses = 0;
+        uint64_t covered = 0, interpolated = 0, validation = 0;
         double interpolation = 0;            // over this slot's covered pixels
         double combined = 0;                 // squared errors of interpolation in what its shaded pixels show, summed
         double interpolation_deviation = 0;  // standard error of it
     };
-    // Witnesses of a tile: their squared errors by interpolation, and those squares' squares, summed.
+    // Validation pixels of a tile: their squared errors of interpolation, and the squares of these, summed.
     struct Tile {
-        uint32_t interpolated = 0, witnesses = 0;
+        uint32_t interpolated = 0, validation = 0;
         double sum = 0, squares = 0;
     };
     double mean_luminance = 0;
     double noise = 0;
-    // Standard error of it: where one sample made a pixel what it is, that pixel's square is in doubt by as much as itself.
+    // Standard error of it: where one sample dominates a pixel, that pixel's squared error is as uncertain as it is large.
     double noise_deviation = 0;
-    // Noise over what the samples' variance says of independent ones: stratified points err less.
+    // Noise over that of independent samples of the same variance: stratified samples have less.
     double stratification = 1;
     double interpolation = 0, interpolation_deviation = 0;  // the second: standard error of the first
-    // What an audit saw beyond noise and interpolation; negative where the spreads tell of more than there is.
+    // Error that control samples see beyond noise and interpolation; negative where the spreads estimate more than there is.
     double bias = 0, bias_deviation = 0;
     std::vector<Slot> slots;
     std::vector<Tile> tiles;
 
     double error() const;
-    // Its parts, relative: where an audit saw less than the spreads tell, there is less noise and no bias.
+    // Its parts, relative: where control samples see less error than the spreads estimate, there is less noise and no bias.
     double noise_error() const { return std::sqrt(noise + std::min(bias, 0.0)); }
     double interpolation_error() const { return std::sqrt(interpolation); }
     double bias_error() const { return std::sqrt(std::max(bias, 0.0)); }
-    double shading() const { return noise + bias; }  // what more samples lessen
+    double shading() const { return noise + bias; }  // what more samples reduce
 };
 
 // slot_of: BRDF slot of each instance, at its number. tiles: none where nothing is interpolated.
-ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const Audit& audit,
+ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const ControlSet& control,
                              const Tiles& tiles);
 
 // The same of the mean of several frames, from the estimate of the first. pixels: those of one frame, but for the radiance.
-void average_error(const RoundPixels& pixels, const Audit& audit, uint32_t frames, ErrorEstimate* estimate);
+void average_error(const RoundPixels& pixels, const ControlSet& control, uint32_t frames, ErrorEstimate* estimate);
 
 // The relative error to be expected of each pixel; 0 where nothing is seen. shape: how the squared error of interpolation is
 // distributed over a slot's interpolated pixels, up to a factor. The root mean square over the covered pixels is error().
@@ -86,8 +86,8 @@ double neighbour_part(const RoundPixels& pixels, size_t at);
 
 // Mean luminance of the covered pixels.
 double mean_luminance(const RoundPixels& pixels);
-// Squared noise over what the replicates tell of it, at most 1, by the audited pixels' own values. What they do not tell is not noise that
-// two neighbours would differ by.
-double truth_of_spreads(const RoundPixels& pixels, const Audit& audit, double mean_luminance);
+// Squared noise over what the spreads of the replicates estimate, at most 1, by the control pixels' own values. Error beyond the spreads is
+// no noise by which two neighbours would differ.
+double spread_calibration(const RoundPixels& pixels, const ControlSet& control, double mean_luminance);
 
 }  // namespace lightband

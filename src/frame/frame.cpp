@@ -24,10 +24,10 @@ void Frame::check(const Scene& scene) const {
 
 void Frame::render(const Scene& scene, const Progress& progress) {
     check(scene);
-    Run run(*device_, scene, settings, width_, height_, pace_, progress);
+    Run run(*device_, scene, settings, width_, height_, throughput_, progress);
     run.execute();
     result_ = run.result();
-    pace_ = run.pace();
+    throughput_ = run.throughput();
 }
 
 std::string Frame::plan(const Scene& scene) const {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "assets/scene.h"
-#include "frame/control.h"
+#include "frame/error_control.h"
 #include "frame/fields.h"
 #include "frame/meter.h"
 #include "picture/settings.h"
@@ -41,7 +41,7 @@ private:
     gl::DevicePtr device_;
     uint32_t width_, height_;
     std::shared_ptr<const FrameResult> result_;
-    Pace pace_;  // of this frame's last rounds
+    Throughput throughput_;  // of this frame's last rounds
 };
 
 }  // namespace lightband

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frame/audit.h"
+#include "frame/control_set.h"
 #include "picture/budget.h"
 
 namespace lightband {
@@ -42,7 +42,7 @@ Recheck recheck(const std::vector<RecheckedPixel>& pixels, const RecheckSamples&
         const double converged = pixel.many + left * clamped(pixel.many - pixel.few);
         differences.add(clamped(converged - pixel.unbiased));
         const double spread = double(pixels.size()) < few_pixels ? std::max(std::abs(pixel.spread), pixel.deviation) : pixel.spread;
-        const double square = std::min(spread * spread, AuditSum::largest_square);
+        const double square = std::min(spread * spread, BiasEstimate::largest_square);
         cut.add(std::pow(clamped(pixel.many - pixel.unbiased), 2) - square);
         unbiased.add(square);
         independent.add(pixel.deviation * pixel.deviation);

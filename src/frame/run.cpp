@@ -9,14 +9,14 @@
 #include "base/columns.h"
 #include "base/text.h"
 #include "frame/combine.h"
-#include "frame/control.h"
+#include "frame/error_control.h"
 #include "passes/gbuffer.h"
 #include "passes/upsample.h"
 
 namespace lightband {
 namespace {
 
-// Samples of a round for which the map's directions are drawn anew: those of one drawing, 65,536, would limit the error. It costs as
+// Samples of a round from which on it draws new directions of the map: the 65,536 of one seed would limit the error. Drawing them costs as
 // much as half a million samples or so.
 constexpr uint64_t worth_new_points = 1u << 23;
 
@@ -61,9 +61,9 @@ const Run::NamedPass Run::passes_by_name[] = {
     {"background", [](Run& run) { return run.background(); }},
 };
 
-Run::Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Pace& pace,
+Run::Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Throughput& throughput,
          const Progress& progress)
-    : state_{device, scene, settings, settings, Meter(progress), scene.slots(), passes::slot_table(device.gl(), scene.slots()), pace,
+    : state_{device, scene, settings, settings, Meter(progress), scene.slots(), passes::slot_table(device.gl(), scene.slots()), throughput,
              std::make_shared<FrameResult>(device.gl(), settings, width, height,
                                            Plan(settings, plan_input(scene, scene.slots(), width, height)))} {
     next().stats.width = width;
@@ -95,7 +95,7 @@ void Run::execute() {
     pass("environment");
     pass("bandwidth");
     examine_control_subset();
-    // Rounds end at once where they find that the sampler has to be replaced, and are planned again for the other.
+    // Rounds end at once where the sampler is replaced, and are planned again for the other.
     while (!rounds()) subset_.tell(&state_.forecast);
     accumulate();
     pass("background");
@@ -167,10 +167,10 @@ Done Run::classify() {
     const std::vector<Lamp> none;
     const passes::Criteria criteria{state_.settings,
                                     interpolates ? state_.scene.light->lamps() : none,
-                                    {control_->witnesses(), subset_.part(), state_.asked.seed(), next().stats.rounds},
+                                    {control_->validation_part(), subset_.part(), state_.asked.seed(), next().stats.rounds},
                                     control_->tolerance(),
-                                    redraw_.bins,
-                                    int(std::lround(bins_per_octave * std::log2(grown_)))};
+                                    resampling_.bins,
+                                    int(std::lround(bins_per_octave * std::log2(growth_)))};
     counts_ = passes::classify(state_.device, state_.slot_of, next().slots, criteria, state_.forecast, next().width, state_.covered,
                                next().gbuffer, prediction, next().shading);
     return {state_.covered.all.count, "pixels", interpolates || !prediction ? "" : "every covered pixel is shaded"};
@@ -182,10 +182,10 @@ Done Run::list_shaded() {
 }
 
 Done Run::shade() {
-    const auto drawn = [&](uint64_t samples) { report_shading(double(samples)); };
+    const auto report = [&](uint64_t samples) { report_shading(double(samples)); };
     state_.meter.begin();
-    drawn(0);
-    passes::shade(state_.device, state_.scene, state_.slots, state_.settings, seeds_, list_, next().gbuffer, next().shading, drawn);
+    report(0);
+    passes::shade(state_.device, state_.scene, state_.slots, state_.settings, seeds_, list_, next().gbuffer, next().shading, report);
     return {list_.total_samples, "samples", text(list_.pixels, " pixels")};
 }
 
@@ -196,11 +196,11 @@ Done Run::upsample() {
 
 Done Run::estimate() {
     RoundPixels pixels = next().read_round();
-    pixels.neighbour_part = neighbour_parts(pixels, subset_.audit(), tiles_, next().width, state_.asked.coarsest_level(),
+    pixels.neighbour_part = neighbour_parts(pixels, subset_.control(), tiles_, next().width, state_.asked.coarsest_level(),
                                             state_.asked.accumulate());
-    next().estimate = estimate_error(pixels, next().slot_of, next().slots, subset_.audit(), tiles_);
+    next().estimate = estimate_error(pixels, next().slot_of, next().slots, subset_.control(), tiles_);
     samples_ = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
-    // A pixel is drawn anew or left as it was.
+    // A pixel was sampled again from the start or left as it was.
     const std::vector<uint32_t>& before = pixels_.sample_count;
     cost_.pixels = cost_.samples = 0;
     for (size_t i = 0; i < pixels.sample_count.size(); ++i) {
@@ -229,7 +229,7 @@ void Run::begin_rounds() {
 }
 
 // Which pixels are shaded.
-void Run::decide(Control* control) {
+void Run::decide(ErrorControl* control) {
     if (next().prediction && !control->interpolates()) {
         next().prediction->pyramids.reset();
         tiles_ = {};
@@ -239,19 +239,19 @@ void Run::decide(Control* control) {
 }
 
 // False: the sampler was replaced, and what is planned is void.
-bool Run::plan_round(Control* control) {
+bool Run::plan_round(ErrorControl* control) {
     const bool first = next().stats.rounds == 1;
     if (!first) {
-        redraw_ = redraw(pixels_, control->interpolates() ? next().areas() : std::vector<float>(), next().estimate.mean_luminance,
+        resampling_ = plan_resampling(pixels_, control->interpolates() ? next().areas() : std::vector<float>(), next().estimate.mean_luminance,
                          state_.asked.allocation(), control->budget(), control->wanted_part());
-        grown_ *= redraw_.growth;
+        growth_ *= resampling_.growth;
     }
     decide(control);
-    if (control->reconsider(counts_.bins(), state_.elapsed())) decide(control);
-    const Histogram fresh = counts_.fresh_bins();
-    const Budget& budget = first ? control->plan(fresh, state_.elapsed()) : control->plan_further(redraw_.drawn, fresh, state_.elapsed());
-    drawn_ = redrawing(redraw_.drawn, fresh, budget);
-    if (first && subset_.is_outgrown_by(drawn_.samples / std::max(drawn_.pixels, 1.0))) {
+    if (control->replan(counts_.bins(), state_.elapsed())) decide(control);
+    const Histogram new_pixels = counts_.new_bins();
+    const Budget& budget = first ? control->plan(new_pixels, state_.elapsed()) : control->plan_further(resampling_.sampled, new_pixels, state_.elapsed());
+    planned_ = round_samples(resampling_.sampled, new_pixels, budget);
+    if (first && subset_.is_outgrown_by(planned_.samples / std::max(planned_.pixels, 1.0))) {
         pass("control");  // in targets that hold nothing yet but decisions, which are lost
         pass("recheck");
         if (subset_.contradicted()) {
@@ -269,7 +269,7 @@ bool Run::plan_round(Control* control) {
 bool Run::rounds() {
     begin_rounds();
     const size_t tiles = size_t(tiles_along(next().width)) * tiles_along(next().height);
-    Control control(state_.settings, state_.forecast, tiles, state_.pace, state_.elapsed());
+    ErrorControl control(state_.settings, state_.forecast, tiles, state_.throughput, state_.elapsed());
     control_ = &control;
     const bool one = state_.asked.target_error() <= 0 && state_.asked.time_budget() <= 0;
     uint32_t points_seed = state_.asked.seed();
@@ -279,8 +279,8 @@ bool Run::rounds() {
         const double begun = state_.elapsed(), shaded = next().record.milliseconds_of("shade");
         const size_t programs = state_.device.program_count();
         if (!plan_round(&control)) return false;
-        const bool nothing_left = drawn_.pixels == 0 && next().stats.rounds > 1;  // that would be worth it
-        if (drawn_.samples >= worth_new_points) points_seed = state_.asked.seed() + next().stats.rounds - 1;
+        const bool nothing_left = planned_.pixels == 0 && next().stats.rounds > 1;  // that would be worth it
+        if (planned_.samples >= worth_new_points) points_seed = state_.asked.seed() + next().stats.rounds - 1;
         seeds_ = {state_.asked.seed() + next().stats.rounds - 1, points_seed};
         pass("shade");
         if (next().prediction && next().prediction->pyramids) pass("upsample");
@@ -293,16 +293,16 @@ bool Run::rounds() {
         cost_.shading_milliseconds = next().record.milliseconds_of("shade") - shaded;
         cost_.other_milliseconds = cost_.elapsed_milliseconds - begun - cost_.shading_milliseconds;
         cost_.made_programs = state_.device.program_count() > programs;
-    } while (control.again(next().estimate, cost_));
+    } while (control.needs_another_round(next().estimate, cost_));
     if (!pixels_.neighbour_part.empty()) pass("combine");
-    state_.pace = control.pace();
+    state_.throughput = control.throughput();
     control_ = nullptr;
     return true;
 }
 
 // ---- Passes after the last round -----------------------------------------------------------------------
 
-// Makes shaded pixels show what the estimate took them to show.
+// Makes shaded pixels show the mean that the estimate is of.
 Done Run::combine() {
     passes::combine(state_.device, state_.covered, *next().prediction->pyramids, pixels_.neighbour_part, next().width, next().shading);
     next().neighbour_part = pixels_.neighbour_part;
@@ -335,7 +335,7 @@ void Run::accumulate() {
         next().record.count("shade", samples_);
     }
     for (const double value : sum) next().accumulated.push_back(float(value / frames));
-    average_error(next().read_round(), subset_.audit(), frames, &next().estimate);
+    average_error(next().read_round(), subset_.control(), frames, &next().estimate);
 }
 
 void Run::finish() {
@@ -357,7 +357,7 @@ void Run::finish() {
     stats.noise_error = result.estimate.noise_error();
     stats.interpolation_error = result.estimate.interpolation_error();
     stats.bias_error = result.estimate.bias_error();
-    stats.audited_pixels = uint32_t(subset_.audit().pixels.size());
+    stats.control_pixels = uint32_t(subset_.control().pixels.size());
     state_.device.gl().Finish();  // the one wait of a frame that is not for something read back
     stats.milliseconds = state_.elapsed();
     stats.bandwidth_milliseconds = result.record.milliseconds_of("bandwidth");
@@ -371,19 +371,19 @@ double Run::expected_shading() const {
     const Settings& settings = state_.asked;
     if (settings.time_budget() > 0) return settings.time_budget();
     const double covered = state_.covered.all.count;
-    const double each = settings.target_error() > 0 ? times_pilot_samples * Audit::effort(settings, covered, 0).probe
+    const double each = settings.target_error() > 0 ? times_pilot_samples * ControlSet::effort(settings, covered, 0).pilot
                                                     : double(settings.samples()) * settings.accumulate();
-    return covered * (Pace::pixel_samples + each) / state_.pace.samples_per_millisecond;
+    return covered * (Throughput::pixel_samples + each) / state_.throughput.samples_per_millisecond;
 }
 
 // Tells the progress callback how far a frame is whose tables may still be made, which takes seconds once: as long as they have taken is
 // expected to be left, if not more.
 void Run::report_preparation() { state_.meter.report(std::max(state_.expected, state_.meter.since_start())); }
 
-// Tells the progress callback how far the frame is when the round that is shaded has drawn so many samples.
+// Tells the progress callback how far the frame is when the round that is shaded has so many samples.
 void Run::report_shading(double samples) {
     const double all = double(list_.total_samples);
-    const double left = state_.meter.left(samples, all, all / state_.pace.samples_per_millisecond);
+    const double left = state_.meter.left(samples, all, all / state_.throughput.samples_per_millisecond);
     double all_left = left + further_ * (state_.meter.passed() + left);
     const double budget = state_.asked.time_budget();
     if (budget > 0) {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "frame/control_subset.h"
-#include "frame/redraw.h"
+#include "frame/resampling.h"
 #include "frame/run_state.h"
 #include "passes/classify.h"
 #include "passes/shade.h"
@@ -13,13 +13,13 @@ namespace lightband {
 
 class Run {
 public:
-    Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Pace& pace,
+    Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Throughput& throughput,
         const Progress& progress);
 
     // Throws where the progress callback cancels.
     void execute();
     std::shared_ptr<const FrameResult> result() const { return state_.result; }
-    const Pace& pace() const { return state_.pace; }  // of the device, as the rounds have measured it
+    const Throughput& throughput() const { return state_.throughput; }  // of the device, as the rounds have measured it
 
 private:
     struct NamedPass {
@@ -46,8 +46,8 @@ private:
     void examine_control_subset();
     void begin_rounds();
     bool rounds();
-    bool plan_round(Control* control);
-    void decide(Control* control);
+    bool plan_round(ErrorControl* control);
+    void decide(ErrorControl* control);
     void accumulate();
     void finish();
     double expected_shading() const;
@@ -59,16 +59,16 @@ private:
     ControlSubset subset_{state_};
 
     // Of the round that runs.
-    const Control* control_ = nullptr;
+    const ErrorControl* control_ = nullptr;
     std::vector<float> scales_;   // of the levels as they are
     Tiles tiles_;                 // empty where nothing is interpolated
     passes::Counts counts_;
     passes::ShadingList list_;
     passes::Seeds seeds_{};
     RoundPixels pixels_;          // as the last round left them
-    Redraw redraw_;               // what a further round knows of it
-    double grown_ = 1;            // samples of shaded pixels, all together, since they were first drawn
-    Redrawing drawn_;             // of the last round, as planned
+    Resampling resampling_;               // what a further round knows of it
+    double growth_ = 1;            // samples of shaded pixels, all together, over that when they were first sampled
+    RoundSamples planned_;          // of the last round
     uint64_t samples_ = 0;        // of the picture as it is
     RoundCost cost_;              // of the last round
     double further_ = 0;          // times as long as a round's shading is expected to be done after it

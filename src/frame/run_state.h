@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "assets/scene.h"
-#include "frame/control.h"
+#include "frame/error_control.h"
 #include "frame/meter.h"
 #include "frame/result.h"
 #include "passes/covered.h"
@@ -20,7 +20,7 @@ struct RunState {
     Meter meter;
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
-    Pace pace;                                  // of the device, as it was last measured
+    Throughput throughput;                                  // of the device, as it was last measured
     const std::shared_ptr<FrameResult> result;
     passes::Covered covered{};
     Forecast forecast{};

@@ -65,7 +65,7 @@ std::vector<io::Attribute> attributes_of(const Frame& frame) {
     add("bias_error", stats.bias_error);
     add("capped_pixels", double(stats.capped_pixels));
     add("rounds", stats.rounds);
-    add("audited_pixels", stats.audited_pixels);
+    add("control_pixels", stats.control_pixels);
     add("sampler_replaced", stats.sampler_replaced);
     return attributes;
 }

@@ -35,7 +35,7 @@ Histogram Counts::bins() const {
     return sums;
 }
 
-Histogram Counts::fresh_bins() const {
+Histogram Counts::new_bins() const {
     Histogram sums(budget_bins);
     for (size_t i = 0; i < histogram.size(); ++i)
         if (i / budget_bins % 2 == 0) sums[i % budget_bins] += histogram[i];
@@ -45,19 +45,19 @@ Histogram Counts::fresh_bins() const {
 Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Criteria& criteria, const Forecast& forecast,
                 uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
     const Settings& settings = criteria.settings;
-    const std::vector<uint8_t>& former_bins = criteria.former_bins;
+    const std::vector<uint8_t>& previous_bins = criteria.previous_bins;
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
-    const bool further = !former_bins.empty();
+    const bool further = !previous_bins.empty();
     const gl::Program& program = device.compute("classify", definitions(settings, prediction) + lamp_definitions(criteria.lamps) +
                                                                 (further ? "\nFURTHER_ROUND" : ""));
-    gl::Texture former;
+    gl::Texture previous;
     if (further) {
-        former = gl::Texture::image(gl, GL_R8UI, width, uint32_t(former_bins.size() / width));
-        former.upload(width, uint32_t(former_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, former_bins.data());
+        previous = gl::Texture::image(gl, GL_R8UI, width, uint32_t(previous_bins.size() / width));
+        previous.upload(width, uint32_t(previous_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, previous_bins.data());
     }
-    criteria.witnesses.set(program);
+    criteria.chosen.set(program);
     set_lamps(program, criteria.lamps);
     program.use();
     bind_surfaces(gl, program, gbuffer);
@@ -78,8 +78,8 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
         if (settings.shares_follow_variance()) bind_image(gl, 1, pyramids.variances, GL_R32F);
     }
     if (further) {
-        bind_texture(gl, 6, former);
-        program.set("fresh_steps", int32_t(criteria.fresh_steps));
+        bind_texture(gl, 6, previous);
+        program.set("new_pixel_steps", int32_t(criteria.new_pixel_steps));
     }
     bind_image(gl, 2, target.decision, GL_R8UI);
     bind_image(gl, 3, target.sample_count, GL_R32UI);

@@ -15,19 +15,19 @@ struct Counts {
     std::vector<uint32_t> histogram;  // (slot * 2 + whether a former round shaded it) * budget_bins + bin
 
     Histogram bins() const;        // over all slots
-    Histogram fresh_bins() const;  // of what no former round shaded
+    Histogram new_bins() const;  // of what no former round shaded
 };
 
-// By what pixels are decided, beside what was predicted. lamps: across whose horizons nothing is interpolated. witnesses: of those that
-// might be interpolated, which are shaded all the same. tolerance: shaders/pilots_say.glsl. former_bins: of the pixels that former rounds
-// shaded; empty in the first. fresh_steps: how many bins the others lie above what prediction says, since those turned out to need more.
+// By what pixels are decided, beside what was predicted. lamps: across whose horizons nothing is interpolated. chosen: of those that
+// might be interpolated, which are shaded all the same. tolerance: shaders/contrast.glsl. previous_bins: of the pixels that former rounds
+// shaded; empty in the first. new_pixel_steps: how many bins the others lie above what prediction says, since those turned out to need more.
 struct Criteria {
     const Settings& settings;
     const std::vector<Lamp>& lamps;
-    Witnesses witnesses;
+    ChosenPixels chosen;
     double tolerance;
-    const std::vector<uint8_t>& former_bins;
-    int fresh_steps;
+    const std::vector<uint8_t>& previous_bins;
+    int new_pixel_steps;
 };
 
 // Decides every pixel. prediction: null in a reference frame, where all covered pixels are shaded alike.

@@ -12,14 +12,14 @@ namespace {
 // milliseconds on a graphics processor, beside which the wait between two dispatches is short.
 constexpr uint64_t dispatch_samples = 1u << 21;
 
-// Pixels of one workgroup: no fewer than most graphics processors run at a time, few enough that an audit of some dozen pixels makes more
+// Pixels of one workgroup: no fewer than most graphics processors run at a time, few enough that some dozen control pixels make more
 // than one.
 constexpr uint32_t group = 32;
 
 std::string definitions(const Light& light, const Material& material, const Settings& settings) {
     std::string result = material.definitions(settings.brdf_lookup()) +
                          text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples, "\nWORTH_REDRAWING ",
-                              worth_redrawing, "u");
+                              least_resampling_factor, "u");
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
     switch (settings.sampler()) {
         case Sampler::cut:

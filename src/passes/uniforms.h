@@ -1,4 +1,4 @@
-// Uniforms that more than one pass sets: of shaders/lamps.glsl and witnesses.glsl.
+// Uniforms that more than one pass sets: of shaders/lamps.glsl and chosen_pixels.glsl.
 #pragma once
 
 #include <algorithm>
@@ -21,18 +21,19 @@ inline void set_lamps(const gl::Program& program, const std::vector<Lamp>& lamps
                                                       float(lamps[i].direction.z), float(std::sin(lamps[i].size))});
 }
 
-// Pixels that are shaded whatever is decided for others (shaders/witnesses.glsl): parts of all, 0 .. 1, drawn by chance. Those that are
-// audited are the same in every round (frame/audit.h); witnesses are others, as levels follow what those before them saw.
-struct Witnesses {
-    double part = 0, audited = 0;
+// Pixels that are shaded although they might be interpolated (shaders/chosen_pixels.glsl): parts of all, 0 .. 1, chosen by chance. Control
+// pixels are the same in every round (frame/control_set.h); validation pixels are others in each, since the levels were chosen by the errors
+// of those before them.
+struct ChosenPixels {
+    double validation = 0, control = 0;
     uint32_t seed = 0, round = 1;
 
     void set(const gl::Program& program) const {
         const auto of_all = [](double some) { return uint32_t(std::max(some * 0x1p32 - 1, 0.0)); };
-        program.set("witnesses", of_all(std::max(part, audited)));
-        program.set("witness_seed", seed + golden_ratio * (round - 1));
-        program.set("audited", of_all(audited));
-        program.set("audit_seed", seed);
+        program.set("validation_part", of_all(std::max(validation, control)));
+        program.set("validation_seed", seed + golden_ratio * (round - 1));
+        program.set("control_part", of_all(control));
+        program.set("control_seed", seed);
     }
 };
 

@@ -56,29 +56,29 @@ Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Alloc
     const double scale = largest_scale([&](double candidate) {
         return predicted_noise(histogram, budget_at(candidate, least, most), allocation) > noise;
     });
-    // Where the least samples do, bins above those that hold pixels have more all the same: further rounds may need them.
+    // Where the least samples suffice, bins above those that hold pixels have more all the same: further rounds may need them.
     uint32_t highest = budget_bins - 1;
     while (highest > 0 && histogram[highest] == 0) --highest;
     // The next sample up, where the noise is below the goal.
     return budget_at(std::max(scale * (1 + 1e-9), least / share_of(highest)), least, most);
 }
 
-Redrawing redrawing(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, const Budget& budget) {
-    Redrawing result;
+RoundSamples round_samples(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels, const Budget& budget) {
+    RoundSamples result;
     const auto add = [&](double pixels, uint32_t bin) {
         result.pixels += pixels;
         result.samples += pixels * budget[bin];
     };
-    for (const DrawnGroup& group : drawn)
-        if (budget[group.bin] >= worth_redrawing * group.samples) add(group.pixels, group.bin);
-    for (uint32_t bin = 0; bin < budget_bins; ++bin) add(double(fresh[bin]), bin);
+    for (const SampledGroup& group : sampled)
+        if (budget[group.bin] >= least_resampling_factor * group.samples) add(group.pixels, group.bin);
+    for (uint32_t bin = 0; bin < budget_bins; ++bin) add(double(new_pixels[bin]), bin);
     return result;
 }
 
-Budget replan_cost(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, double cost, double pixel_samples, uint32_t most) {
+Budget replan_cost(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels, double cost, double pixel_samples, uint32_t most) {
     const uint32_t least = std::min(least_samples, most);
     const double scale = largest_scale([&](double candidate) {
-        const Redrawing all = redrawing(drawn, fresh, budget_at(candidate, least, most));
+        const RoundSamples all = round_samples(sampled, new_pixels, budget_at(candidate, least, most));
         return all.samples + pixel_samples * all.pixels <= cost;
     });
     return budget_at(scale, least, most);

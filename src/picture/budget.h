@@ -6,10 +6,10 @@
 
 namespace lightband {
 
-// Pixels are binned by the share of samples that they deserve, four bins an octave: bin b deserves 2^((b - share_one) / 4).
+// Pixels are binned by their weight when samples are shared, four bins an octave: bin b has a weight of 2^((b - share_one) / 4).
 constexpr uint32_t budget_bins = 126, share_one = 63, bins_per_octave = 4;
 double share_of(uint32_t bin);
-// Fewer save little, since a pixel costs as much as 30 before its first one, and make witnesses that see ghosts (docs/decisions/0007).
+// Fewer save little, since a pixel costs as much as 30 before its first one, and make noise look like an error of interpolation (docs/decisions/0007).
 constexpr uint32_t least_samples = 16;
 
 using Histogram = std::vector<uint64_t>;  // pixels per bin
@@ -31,24 +31,25 @@ Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Alloc
 
 // Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
 constexpr double stratified_gain = 1.2;
-// A pixel is drawn anew or left as it is. Its squared error e goes to e r^-g with r times the samples, and the sum over pixels is least
-// where the last sample of each gains as much; so drawing one anew gains as much as its samples would elsewhere from
+// A pixel is sampled again from the start or left as it is. Its squared error e becomes e r^-g with r times the samples, and the sum over
+// pixels is least where one more sample of any pixel reduces it by as much; so sampling one again reduces it by as much as its samples
+// would elsewhere from
 // r = (1 + g)^(1 / g) = 1.93 on.
-constexpr uint32_t worth_redrawing = 2;
+constexpr uint32_t least_resampling_factor = 2;
 
-// Pixels that former rounds drew, of one bin and with as many samples.
-struct DrawnGroup {
+// Pixels that rounds before have sampled, of one bin and with the same number of samples.
+struct SampledGroup {
     uint32_t bin, samples;
     double pixels;
 };
 
-// What a further round draws: pixels that it is the first to draw, and those that it draws anew.
-struct Redrawing {
+// What a further round samples: pixels that it is the first to sample, and those that it samples again.
+struct RoundSamples {
     double pixels = 0, samples = 0;
 };
-Redrawing redrawing(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, const Budget& budget);
+RoundSamples round_samples(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels, const Budget& budget);
 
-// The most for which no more than `cost` is drawn, a pixel counting as so many samples before its first one.
-Budget replan_cost(const std::vector<DrawnGroup>& drawn, const Histogram& fresh, double cost, double pixel_samples, uint32_t most);
+// The largest budget that costs no more than `cost` samples, the fixed cost of a pixel being so many.
+Budget replan_cost(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels, double cost, double pixel_samples, uint32_t most);
 
 }  // namespace lightband

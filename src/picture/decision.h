@@ -5,10 +5,10 @@
 
 namespace lightband {
 
-constexpr uint8_t first_bin = 2, witness_bit = 128;
+constexpr uint8_t first_bin = 2, validation_bit = 128;
 inline bool is_interpolated(uint8_t decision) { return decision == 1; }
-inline bool is_shaded(uint8_t decision) { return (decision & ~witness_bit) >= first_bin; }
-inline bool is_witness(uint8_t decision) { return (decision & witness_bit) != 0; }
+inline bool is_shaded(uint8_t decision) { return (decision & ~validation_bit) >= first_bin; }
+inline bool is_validation(uint8_t decision) { return (decision & validation_bit) != 0; }
 
 // The lattice on which a pixel first appears: spacing 2^level (shaders/lattice.glsl).
 inline uint32_t lattice_level(uint32_t x, uint32_t y, uint32_t coarsest) {

@@ -10,8 +10,8 @@ struct Forecast {
     double covered = 0;             // pixels
     double mean_radiance = 0;       // luminance
     double relative_deviation = 0;  // mean of one light sample's standard deviation over the pixel's radiance
-    double probed_error = 0;        // mean square that a probe's samples leave of every pixel; 0: not probed
-    uint32_t probe_samples = 0;     // of each
+    double pilot_error = 0;        // mean squared error that pilot samples leave; 0: there were none
+    uint32_t pilot_samples = 0;     // of each
 };
 
 }  // namespace lightband

@@ -140,7 +140,7 @@ def test_tiny_frames_know_their_bias(shared, size):
     frame = shared.frame(size, size)
     frame.render(scene)
     true = np.sqrt(np.mean(((luminance(frame) - 0.5) / 0.505) ** 2))
-    assert frame.stats.audited_pixels == size * size
+    assert frame.stats.control_pixels == size * size
     if frame.stats.sampler_replaced:  # samples without bias have no error here, and the frame found out
         assert true < 1e-5 < frame.stats.error
     else:
@@ -269,7 +269,7 @@ def test_every_pixel_is_held_against_itself(shared):
     settings = {"samples": 8192, "coarsest_level": 0, "sampler": "combined"}
     references = [luminance(rendered(shared, scene, *BLOB_SIZE, seed=seed, **settings)) for seed in (93, 94)]
     frame = rendered(shared, scene, *BLOB_SIZE, target_error=0.03)
-    assert frame.stats.audited_pixels > 100
+    assert frame.stats.control_pixels > 100
     # As of one material alone; were one pixel held against another's, the estimate could not fall below their difference.
     assert true_error(frame, *references) < 1.5 * 0.03
     assert frame.stats.error <= 0.03

@@ -33,7 +33,7 @@ def test_an_adaptive_frame(context, sphere):
 def test_without_bias_nothing_is_audited(context, sphere):
     frame = rendered(context, sphere, *SIZE, samples=16, sampler="combined")
     assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate", "combine"]
-    assert frame.stats.audited_pixels == 0 and frame.stats.bias_error == 0
+    assert frame.stats.control_pixels == 0 and frame.stats.bias_error == 0
 
 
 def test_a_reference_predicts_and_interpolates_nothing(context, sphere):

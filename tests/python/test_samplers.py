@@ -140,7 +140,7 @@ def test_a_reference_has_no_bias(shared, smooth):
     frames = [rendered(shared, scene, *SIZE, method="reference", samples=16, sampler=sampler)
               for sampler in ("cut", "brdf")]
     assert frames[0].color.tobytes() == frames[1].color.tobytes()
-    assert frames[0].stats.audited_pixels == 0 and frames[0].stats.bias_error == 0
+    assert frames[0].stats.control_pixels == 0 and frames[0].stats.bias_error == 0
 
 
 def test_an_audit_finds_the_bias(shared):
@@ -153,7 +153,7 @@ def test_an_audit_finds_the_bias(shared):
     covered = truth.material > 0
     seen, true = (picture.color[covered][:, :3] @ LUMINANCE for picture in (frame, truth))
     error = np.sqrt(np.mean(((seen - true) / (true + 0.01 * true.mean())) ** 2))
-    assert frame.stats.audited_pixels > 100
+    assert frame.stats.control_pixels > 100
     assert frame.stats.bias_error > 0.3 * frame.stats.error
     # Products of deviations are believed up to 1, and half of the few hundred covered pixels are looked at.
     assert frame.stats.error == pytest.approx(error, rel=0.5)

@@ -32,7 +32,7 @@ struct Picture {
             pixels.spread.insert(pixels.spread.end(), {float(spread), float(interpolated[i] - own[i]), float(other - spread),
                                                        float(other_noise * other_noise)});
             pixels.sample_count.push_back(16);
-            pixels.decision.push_back(first_bin | witness_bit);
+            pixels.decision.push_back(first_bin | validation_bit);
             pixels.material.push_back(1);
         }
     }

@@ -1,5 +1,5 @@
 // What a frame says of its error, and the audits that it is held against.
-#include "frame/control.h"
+#include "frame/error_control.h"
 #include "frame/estimate.h"
 #include "numeric_testing.h"
 #include "picture/decision.h"
@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing;
 
-constexpr uint8_t interpolated = 1, shaded = 40, witness = shaded | witness_bit;
+constexpr uint8_t interpolated = 1, shaded = 40, witness = shaded | validation_bit;
 
 double normal(Random& random) {  // Box and Muller
     return std::sqrt(-2 * std::log(1 - random.uniform())) * std::cos(2 * pi * random.uniform());
@@ -42,7 +42,7 @@ RoundPixels synthetic(Random& random, size_t count, double variance, double bias
 }
 
 // Of a frame of one material and one tile.
-ErrorEstimate estimated(const RoundPixels& pixels, const Audit& audit = {}) {
+ErrorEstimate estimated(const RoundPixels& pixels, const ControlSet& audit = {}) {
     return estimate_error(pixels, {0}, 1, audit, {1, std::vector<uint32_t>(pixels.material.size())});
 }
 
@@ -97,15 +97,15 @@ void tiles_count_their_own_witnesses(void**) {
     assert_int_equal(estimate.tiles.size(), 6);
     uint64_t witnesses = 0, interpolated_pixels = 0;
     for (const ErrorEstimate::Tile& tile : estimate.tiles) {
-        witnesses += tile.witnesses;
+        witnesses += tile.validation;
         interpolated_pixels += tile.interpolated;
     }
-    assert_int_equal(witnesses, estimate.slots[0].witnesses);
+    assert_int_equal(witnesses, estimate.slots[0].validation);
     assert_int_equal(interpolated_pixels, estimate.slots[0].interpolated);
     // Pixels whose number is a multiple of eight are witnesses: 40 a row leave two, two and one to the tiles.
-    assert_int_equal(estimate.tiles[0].witnesses, 16 * 2);
-    assert_int_equal(estimate.tiles[2].witnesses, 16 * 1);
-    assert_int_equal(estimate.tiles[5].witnesses, 8 * 1);
+    assert_int_equal(estimate.tiles[0].validation, 16 * 2);
+    assert_int_equal(estimate.tiles[2].validation, 16 * 1);
+    assert_int_equal(estimate.tiles[5].validation, 8 * 1);
 }
 
 // A picture that is wrong by the same in every pixel, of which two replicates tell nothing; the audit errs by chance alone.
@@ -114,7 +114,7 @@ void an_audit_sees_what_the_spreads_do_not(void**) {
     const double scale = 2.22, wrong = 0.2, doubt = 0.1;
     for (const double factor : {0.0, 1.0}) {
         const RoundPixels pixels = synthetic(random, 20000, 0.16, 0);
-        Audit audit;
+        ControlSet audit;
         for (uint32_t i = 0; i < 20000; i += 8) {  // witnesses, which are shaded
             const double a = doubt * normal(random), b = doubt * normal(random);
             audit.pixels.push_back({i, float(2 + factor * wrong + 0.5 * (a + b)), float(0.5 * (a - b)), 0, 0, false});
@@ -149,7 +149,7 @@ void an_audit_sees_what_neighbours_share(void**) {
     Random random(18);
     const double shared = 0.2, scale = 2.22;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
-    Audit audit;
+    ControlSet audit;
     for (const uint32_t i : audited_places(20000)) audit.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, 0, false});
     const ErrorEstimate estimate = estimated(pixels, audit);
     check_at_most("interpolation, as witnesses see it", estimate.interpolation, 1e-6);
@@ -162,7 +162,7 @@ void an_audit_judges_what_would_be_interpolated(void**) {
     Random random(22);
     const double wrong = 0.2, spread = 0.02, scale = 2.02;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
-    Audit audit;
+    ControlSet audit;
     for (const uint32_t i : audited_places(20000)) {
         if (i % 8 == 0) {
             pixels.spread[4 * i] = float(spread);
@@ -178,13 +178,13 @@ void an_audit_judges_what_would_be_interpolated(void**) {
     check_close("error", estimate.error(), expected, 0.03 * expected);
 }
 
-// Of the pixels that might be interpolated, half were witnesses of a former round and show what they drew, which is wrong. Audited ones
+// Of the pixels that might be interpolated, half were witnesses of a former round and show what they drew, which is wrong. Comparison ones
 // are witnesses still: what they drew counts for as many as show it.
 void what_former_witnesses_show_counts(void**) {
     Random random(29);
     const double wrong = 0.2, scale = 2.22;  // of what the audit saw
     RoundPixels pixels = synthetic(random, 24000, 1e-6, 0);
-    Audit audit;
+    ControlSet audit;
     uint64_t wrong_pixels = 0;
     for (uint32_t i = 0; i < 24000; ++i) {
         const bool audited = i % 8 == 0, might_be = i % 3 != 0, is = might_be && !audited && i % 3 == 1, shows_wrong = might_be && !is;
@@ -196,33 +196,33 @@ void what_former_witnesses_show_counts(void**) {
         wrong_pixels += shows_wrong;
     }
     const ErrorEstimate estimate = estimated(pixels, audit);
-    // Witnesses deviate by what is wrong with what was drawn there, which counts as interpolation's; the rest is bias.
+    // ChosenPixels deviate by what is wrong with what was drawn there, which counts as interpolation's; the rest is bias.
     const double expected = std::pow(wrong / scale, 2) * double(wrong_pixels) / 24000;
     check_close("error", estimate.error(), std::sqrt(expected), 0.02 * std::sqrt(expected));
 }
 
 // By the frame's own sampler: what it shows of itself is taken off, and it is silent where it knows no better.
 void an_audit_of_the_same_sampler_knows_its_limits(void**) {
-    Audit audit;
+    ControlSet audit;
     audit.samples = 400;
-    const Audit::Pixel biased = {0, 1, 7, 7, 0, true}, unbiased = {0, 1, 0.0625f, 0.0625f, 0, false};
-    assert_true(audit.tells_of(biased, 100) && audit.tells_of(biased, 200) && !audit.tells_of(biased, 300) && !audit.tells_of(biased, 0));
-    assert_true(audit.tells_of(unbiased, 1000));
+    const ControlSet::Pixel biased = {0, 1, 7, 7, 0, true}, unbiased = {0, 1, 0.0625f, 0.0625f, 0, false};
+    assert_true(audit.is_better_than(biased, 100) && audit.is_better_than(biased, 200) && !audit.is_better_than(biased, 300) && !audit.is_better_than(biased, 0));
+    assert_true(audit.is_better_than(unbiased, 1000));
     // 0.3 of the audit's own error, which falls as samples to the power -1.2.
     const double shown = std::pow(0.25, 1.2);
     check_close("of a quarter of its samples", audit.square(biased, 1.25, 0.5, 100) / 0.25, 1 / (1 + 0.3 * shown), 1e-12);
     check_close("without bias", audit.square(unbiased, 1.25, 0.5, 100), 0.25 - 0.015625, 1e-12);
-    check_close("of another", audit.square_of_other(biased, 1.25, 0.5, 0.01, 100), 0.25 - 0.01 * shown, 1e-12);
+    check_close("of another", audit.squared_error_of_other(biased, 1.25, 0.5, 0.01, 100), 0.25 - 0.01 * shown, 1e-12);
 }
 
 // Pixels that err by b n^(-g / 2), all to one side, and by chance besides: of four times the samples the former shows 1 - 4^-0.6 = 0.565.
-void what_an_audit_shares_is_told_from_chance(void**) {
+void what_an_audit_shares_is_estimated_from_chance(void**) {
     Random random(30);
     const double chance = 0.01, shown = 0.5647;
     const auto hidden_of_300 = [&](double alike) {
-        SharedError shared;
+        CommonModeError shared;
         for (int i = 0; i < 300; ++i) shared.add(shown * alike + chance * normal(random), 0.25);
-        return shared.hidden();
+        return shared.unseen();
     };
     // The mean of 300 is known to a seventeenth of what chance makes of each: 0.0006, of 0.017 a thirtieth.
     const double alike = 0.03, hidden = alike * alike * (1 - shown * shown);
@@ -232,9 +232,9 @@ void what_an_audit_shares_is_told_from_chance(void**) {
     double sum = 0;
     for (int set = 0; set < 1000; ++set) sum += hidden_of_300(0);
     check_close("hidden of chance", sum / 1000 / (chance * chance / 300 * (1 / (shown * shown) - 1)), 0.484, 0.12);
-    SharedError one;
+    CommonModeError one;
     one.add(0.1, 0.25);
-    assert_true(one.hidden() == 0);
+    assert_true(one.unseen() == 0);
 }
 
 // What is common to all pixels is added to what a frame says of its bias.
@@ -242,12 +242,12 @@ void a_bias_of_all_pixels_alike_is_known_whole(void**) {
     Random random(31);
     const double wrong = 0.2;  // of 64 samples; of 256, 0.2 4^-0.6
     const RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
-    Audit audit;
+    ControlSet audit;
     audit.samples = 256;
     for (const uint32_t i : audited_places(20000))
         audit.pixels.push_back({i, float(pixels.radiance[4 * i] - wrong * (1 - std::pow(4, -0.6))), 0, 0, 0, true});
     const ErrorEstimate estimate = estimated(pixels, audit);
-    // Relative to what the audit saw, which lies 0.087 above the truth of 1.8: one part in twenty. Of squares, shown_of_audit takes off
+    // Relative to what the audit saw, which lies 0.087 above the truth of 1.8: one part in twenty. Of squares, visible_control_error takes off
     // one in eighteen.
     check_close("error", estimate.error() / (wrong / 1.82), 1, 0.1);
 }
@@ -256,11 +256,11 @@ void a_bias_of_all_pixels_alike_is_known_whole(void**) {
 void a_probe_believes_its_audit(void**) {
     Random random(16);
     const double error = 0.01;
-    AuditSum sum;
+    BiasEstimate sum;
     for (int i = 0; i < 5000; ++i) sum.add(std::pow(error * normal(random), 2), 2 * std::pow(error * normal(random), 2));
     // Means of 5,000 squares of normal deviations are known to 2 %; an audit is given all but a thousandth of the weight.
     check_close("error", sum.error() / (error * error), 1, 0.12);
-    AuditSum none, dark;
+    BiasEstimate none, dark;
     dark.add(0, 0);
     assert_true(none.error() == 0 && dark.error() == 0);
 }
@@ -269,7 +269,7 @@ void a_probe_believes_its_audit(void**) {
 // as much in doubt. Where all are as large, they are believed.
 void a_single_square_is_doubted(void**) {
     const int n = 400;
-    AuditSum one, all;
+    BiasEstimate one, all;
     for (int i = 0; i < n; ++i) {
         one.add(i == 0 ? 0.001 * (n + 1) : 0.001, 0.001);
         all.add(0.002 + 0.0005 * (i % 2), 0.001);
@@ -279,19 +279,19 @@ void a_single_square_is_doubted(void**) {
     check_close("all", all.error() / 0.001, 2.25, 0.001);
 }
 
-// A cut whose pixels miss light is told so by what has met it; not by what has not.
+// A cut whose pixels miss light is estimated so by what has met it; not by what has not.
 void a_cut_is_refuted_by_light_alone(void**) {
-    const Audit::Pixel cut = {0, 1, 0.01f, 0.01f, 0, true};
-    const auto seen = [](float mean, float deviation) { return Audit::Pixel{0, mean, 0, deviation, 0, false}; };
-    assert_true(Audit::refutes(seen(1.31f, 0.1f), cut) && !Audit::refutes(seen(1.29f, 0.1f), cut));
-    assert_false(Audit::refutes(seen(0, 0), cut));
+    const ControlSet::Pixel cut = {0, 1, 0.01f, 0.01f, 0, true};
+    const auto seen = [](float mean, float deviation) { return ControlSet::Pixel{0, mean, 0, deviation, 0, false}; };
+    assert_true(ControlSet::sees_more_than(seen(1.31f, 0.1f), cut) && !ControlSet::sees_more_than(seen(1.29f, 0.1f), cut));
+    assert_false(ControlSet::sees_more_than(seen(0, 0), cut));
 }
 
-// Of a frame's pixels all but a few, which err most, have overtaken their audit: those few do not speak for all.
+// Of a frame's pixels all but a few, which err most, have outgrown their audit: those few do not speak for all.
 void what_has_overtaken_its_audit_is_still_counted(void**) {
     Random random(26);
     RoundPixels pixels = synthetic(random, 20000, 0.01, 0);
-    Audit audit;
+    ControlSet audit;
     audit.samples = 1;
     for (uint32_t i = 0; i < 400; ++i) {
         const bool wrong = i < 4;
@@ -309,11 +309,11 @@ void who_is_drawn_among_few_is_among_more(void**) {
     std::vector<uint32_t> rows(256);
     for (uint32_t y = 0; y < 256; ++y)
         for (uint32_t x = 0; x < 256; ++x) {
-            const bool drawn = is_drawn(x, y, 77, 1.0 / 32);
+            const bool drawn = is_chosen_by(x, y, 77, 1.0 / 32);
             few += drawn;
             rows[y] += drawn;
-            more += is_drawn(x, y, 77, 1.0 / 16);
-            assert_true(!drawn || is_drawn(x, y, 77, 1.0 / 16));
+            more += is_chosen_by(x, y, 77, 1.0 / 16);
+            assert_true(!drawn || is_chosen_by(x, y, 77, 1.0 / 16));
         }
     // Binomial: four standard deviations of 65,536 trials; and no row of 256 has none of its 8 or thrice as many (e^-8, 1e-6).
     check_close("a 32nd", few, 2048, 4 * std::sqrt(2048.0));
@@ -324,26 +324,26 @@ void who_is_drawn_among_few_is_among_more(void**) {
 // A frame without bias and without an error to keep looks at no pixel; one with a time looks at fewer.
 void an_audit_takes_what_it_may(void**) {
     Settings settings;
-    assert_true(Audit::effort(settings, 30000, 0).samples == 4 * settings.samples());
+    assert_true(ControlSet::effort(settings, 30000, 0).samples == 4 * settings.samples());
     settings.set_number("accumulate", 8);
-    assert_true(Audit::effort(settings, 30000, 0).samples == 32 * settings.samples());
+    assert_true(ControlSet::effort(settings, 30000, 0).samples == 32 * settings.samples());
     settings.set_number("accumulate", 1);
     settings.set_choice("sampler", "combined");
-    assert_true(Audit::effort(settings, 30000, 0).part == 0);
+    assert_true(ControlSet::effort(settings, 30000, 0).part == 0);
     settings.set_number("target_error", 0.02);
-    assert_true(Audit::effort(settings, 30000, 0).probe > 0 && Audit::effort(settings, 30000, 0).samples == 0);
+    assert_true(ControlSet::effort(settings, 30000, 0).pilot > 0 && ControlSet::effort(settings, 30000, 0).samples == 0);
     settings.set_choice("sampler", "cut");
-    const Audit::Effort planned = Audit::effort(settings, 30000, 0);
-    assert_int_equal(planned.probe, 91);  // (0.3 / 0.02)^(2 / 1.2)
+    const ControlSet::Effort planned = ControlSet::effort(settings, 30000, 0);
+    assert_int_equal(planned.pilot, 91);  // (0.3 / 0.02)^(2 / 1.2)
     assert_int_equal(planned.samples, 364);
     settings.set_choice("sampler", "filtered");
-    assert_int_equal(Audit::effort(settings, 30000, 0).samples, 1125);  // 5 / (0.02 / 0.3)^2
+    assert_int_equal(ControlSet::effort(settings, 30000, 0).samples, 1125);  // 5 / (0.02 / 0.3)^2
     settings.set_number("time_budget", 50);
-    const Audit::Effort hurried = Audit::effort(settings, 30000, 250000);
-    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + Pace::pixel_samples), 1.2 * 0.06 * 250000);
+    const ControlSet::Effort hurried = ControlSet::effort(settings, 30000, 250000);
+    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + Throughput::pixel_samples), 1.2 * 0.06 * 250000);
     assert_true(hurried.part * 30000 >= 64);
     // 64 pixels of 64 samples, and 30 before the first, are 6 % of 100,267.
-    assert_true(Audit::effort(settings, 30000, 101000).part > 0 && Audit::effort(settings, 30000, 100000).part == 0);
+    assert_true(ControlSet::effort(settings, 30000, 101000).part > 0 && ControlSet::effort(settings, 30000, 100000).part == 0);
 }
 
 }  // namespace
@@ -361,7 +361,7 @@ int main() {
         cmocka_unit_test(what_has_overtaken_its_audit_is_still_counted),
         cmocka_unit_test(tiles_count_their_own_witnesses),
         cmocka_unit_test(an_audit_sees_what_the_spreads_do_not),
-        cmocka_unit_test(what_an_audit_shares_is_told_from_chance),
+        cmocka_unit_test(what_an_audit_shares_is_estimated_from_chance),
         cmocka_unit_test(a_bias_of_all_pixels_alike_is_known_whole),
         cmocka_unit_test(a_probe_believes_its_audit),
         cmocka_unit_test(an_audit_sees_what_neighbours_share),

@@ -1,6 +1,6 @@
 // The recheck of a light cut by samples without bias: it sees light that is lost alike with few samples and many, and is not misled by
 // noise, nor by a cut that converges.
-#include "frame/audit.h"
+#include "frame/control_set.h"
 #include "frame/recheck.h"
 #include "numeric_testing.h"
 #include "picture/budget.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;
 
-constexpr RecheckSamples samples{64, 256, 735};  // unbiased: Audit::unbiased_samples(64)
+constexpr RecheckSamples samples{64, 256, 735};  // unbiased: ControlSet::unbiased_samples(64)
 constexpr double harmless = 0.005;
 
 double normal(Random* random) { return std::sqrt(-2 * std::log(1 - random->uniform())) * std::cos(2 * pi * random->uniform()); }

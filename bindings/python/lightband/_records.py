@@ -55,25 +55,25 @@ class FrameStats:
     frames: frames averaged; the setting "accumulate".
     covered_pixels: pixels that see a mesh.
     shaded_pixels: of them, those whose integral was computed; the others were interpolated.
-    samples: light samples that the picture is made of, counted by the shaders themselves, all frames. Those that were drawn anew, of
-        probes and of audits are not among them.
+    samples: light samples that the picture is made of, counted by the shaders themselves, all frames. Those of pixels
+        that were sampled again, of pilot and control samples are not among them.
     saturated_pixels: covered pixels whose predicted bandwidth reached 0.5 cycles per pixel.
     bent_normals: covered pixels whose shading normal faced away and was turned to the eye.
     device_bytes: bytes of device memory held by the scene and this frame.
     milliseconds: milliseconds of the whole render call.
-    bandwidth_milliseconds: of it, everything beside shading and geometry (bandwidth, audits, lists, interpolation, estimate).
+    bandwidth_milliseconds: of it, the prediction of bandwidth and variance; 0 in a frame of method "reference".
     shading_milliseconds: of it, the shading integral.
     error: relative error of the frame (1: as large as the picture) as the frame itself estimates it: root of the squares of the
         parts noise, interpolation and bias. The field frame.error holds it pixel by pixel.
-    noise_error: the part of it that more samples would lessen.
-    interpolation_error: the part of it that finer levels would lessen.
-    capped_pixels: pixels whose samples reached the setting "max_samples"; they may have deserved more.
+    noise_error: the part of it that more samples would reduce.
+    interpolation_error: the part of it that finer levels would reduce.
+    capped_pixels: pixels whose samples reached the setting "max_samples"; their error may be larger than the others'.
     rounds: rounds of shading; 1 where neither an error nor a time was asked for.
-    audited_pixels: pixels that were also shaded with more samples, to know how far the others err; 0 where the setting "sampler"
+    control_pixels: pixels that were also shaded with more samples, to know how far the others err; 0 where the setting "sampler"
         has no bias or a "time_budget" leaves no time for them.
-    bias_error: the part of error that an audit found beyond the other two: what a biased sampler gets wrong in the same way at
-        every seed. More samples lessen it.
-    sampler_replaced: whether samples without bias contradicted the sampler "cut", and the picture was drawn by another (frame.plan
+    bias_error: the part of error that control samples see beyond the other two: the bias of a sampler, which is the same at every
+        seed. More samples reduce it.
+    sampler_replaced: whether the sampler "cut" did not agree with samples without bias, and the picture was shaded by another (frame.plan
         says which).
     """
 
@@ -94,7 +94,7 @@ class FrameStats:
     interpolation_error: float
     capped_pixels: int
     rounds: int
-    audited_pixels: int
+    control_pixels: int
     bias_error: float
     sampler_replaced: bool
 

@@ -1,6 +1,6 @@
 // Error control: which rounds a frame takes, and what each draws.
-#include "frame/control.h"
-#include "frame/redraw.h"
+#include "frame/error_control.h"
+#include "frame/resampling.h"
 #include "numeric_testing.h"
 #include "picture/decision.h"
 
@@ -57,34 +57,34 @@ ErrorEstimate estimate_of(double noise, double interpolation) {
 
 void rounds_stop_where_the_error_is_reached(void**) {
     const Settings settings = asking("target_error", 0.05);
-    Control control(settings, {1520, 1, 1}, 2, {}, 0);
+    ErrorControl control(settings, {1520, 1, 1}, 2, {}, 0);
     control.plan(some_histogram(), 0);
-    assert_false(control.again(estimate_of(0.03 * 0.03, 0.02 * 0.02), {}));
+    assert_false(control.needs_another_round(estimate_of(0.03 * 0.03, 0.02 * 0.02), {}));
 }
 
 // The error is reached; but where half of it is one pixel that one sample made, that is only how it looks.
 void noise_of_one_sample_is_not_believed(void**) {
     const Settings settings = asking("target_error", 0.05);
-    Control control(settings, {1520, 1, 1}, 2, {}, 0);
+    ErrorControl control(settings, {1520, 1, 1}, 2, {}, 0);
     control.plan(some_histogram(), 0);
     ErrorEstimate estimate = estimate_of(0.04 * 0.04, 0);
     estimate.noise_deviation = 0.5 * 0.04 * 0.04;  // in all 0.049: more than 0.93 of 0.05
-    assert_true(control.again(estimate, {}));
+    assert_true(control.needs_another_round(estimate, {}));
     estimate.noise_deviation = 0.1 * 0.04 * 0.04;
-    assert_false(control.again(estimate, {}));
+    assert_false(control.needs_another_round(estimate, {}));
 }
 
 void noise_asks_for_samples_and_interpolation_for_levels(void**) {
     const Settings settings = asking("target_error", 0.05);
-    Control control(settings, {1520, 1, 1}, 2, {}, 0);
+    ErrorControl control(settings, {1520, 1, 1}, 2, {}, 0);
     const Budget first = control.plan(some_histogram(), 0);
     const float scale = control.scales().of[0];
-    assert_true(control.again(estimate_of(0.2 * 0.2, 0), {}));
+    assert_true(control.needs_another_round(estimate_of(0.2 * 0.2, 0), {}));
     assert_true(control.scales().of[0] == scale);
     check_close("part, to a quarter of the noise at most in one round", control.wanted_part(), 0.25, 0);
     // The budget stays: pixels move to other bins of it.
     assert_true(control.plan_further({}, Histogram(budget_bins), 0) == first);
-    assert_true(control.again(estimate_of(0.02 * 0.02, 0.1 * 0.1), {}));
+    assert_true(control.needs_another_round(estimate_of(0.02 * 0.02, 0.1 * 0.1), {}));
     assert_true(control.scales().of[0] > scale);
     assert_true(control.scales().of[1] == scale);  // where no witness saw any error
 }
@@ -102,13 +102,13 @@ void what_no_levels_are_found_for_is_not_interpolated(void**) {
         Settings settings = asking("target_error", 0.05);
         settings.set_number(own.also, own.value);
         Forecast forecast{1520, 1, 1};
-        forecast.probed_error = 1e-4;  // by which the error, not the time, governs
-        forecast.probe_samples = 64;
-        Control control(settings, forecast, 2, {}, 0);
+        forecast.pilot_error = 1e-4;  // by which the error, not the time, governs
+        forecast.pilot_samples = 64;
+        ErrorControl control(settings, forecast, 2, {}, 0);
         control.plan(some_histogram(), 0);
         for (int round = 1; round <= 5; ++round) {
             assert_true(control.interpolates());
-            assert_true(control.again(estimate_of(0.2 * 0.2, own.interpolation * own.interpolation), {}));
+            assert_true(control.needs_another_round(estimate_of(0.2 * 0.2, own.interpolation * own.interpolation), {}));
             control.plan_further({}, Histogram(budget_bins), 0);
         }
         assert_true(control.interpolates() != own.gives_up);
@@ -120,13 +120,13 @@ void a_single_witness_is_doubted_while_there_is_noise(void**) {
     const Settings settings = asking("target_error", 0.05);
     const double allowed = 0.7 * 0.04 * 0.04;  // noise, as Control shares it
     for (const bool noisy : {true, false}) {
-        Control control(settings, {1520, 1, 1}, 2, {}, 0);
+        ErrorControl control(settings, {1520, 1, 1}, 2, {}, 0);
         control.plan(some_histogram(), 0);
         const float scale = control.scales().of[0];
         ErrorEstimate estimate = estimate_of((noisy ? 2 : 0.9) * allowed, 0.03 * 0.03);
         estimate.interpolation_deviation = 0.04 * 0.04;
         estimate.tiles = {{300, 8, 0.5, 0.25}, {300, 200, 0, 0}};  // one of eight, by 70 %
-        assert_true(control.again(estimate, {}));
+        assert_true(control.needs_another_round(estimate, {}));
         assert_true((control.scales().of[0] > scale) != noisy);
     }
 }
@@ -158,13 +158,13 @@ void what_varies_most_is_drawn_anew(void**) {
     const RoundPixels pixels = unequal(random, 10000, 64);
     const Budget budget = sixty_four_at_share_one();
     const auto varies = [&](size_t i) { return pixels.radiance[4 * i + 3] > 5; };
-    // Noisy pixels are all alike: twice the samples leave 0.48 at least. Quiet ones are worth redrawing below 0.3.
+    // Noisy pixels are all alike: twice the samples leave 0.48 at least. Quiet ones are worth round_samples below 0.3.
     for (const double part : {0.45, 0.4, 0.35}) {
-        const Redraw next = redraw(pixels, {}, 2, Allocation::least_error, budget, part);
+        const Resampling next = plan_resampling(pixels, {}, 2, Allocation::least_error, budget, part);
         double before = 0, after = 0, drawn = 0, kept = 0;
         for (size_t i = 0; i < 10000; ++i) {
             const double more = budget[next.bins[i]] / 64.0, noise = varies(i) ? 4 : 0.04;
-            const bool anew = more >= worth_redrawing;
+            const bool anew = more >= least_resampling_factor;
             assert_true(varies(i) || !anew);
             assert_true(anew || next.bins[i] == 0);  // listed apart
             before += noise;
@@ -177,7 +177,7 @@ void what_varies_most_is_drawn_anew(void**) {
         check_at_most("what was asked for less what quiet pixels seem to leave", part - 0.9 * 0.12 / 0.44, 1.25 * after / before);
         // Noise of all pixels would be lessened so by samples of all.
         check_at_most("samples over those of drawing all anew", drawn, 0.5 * 10000 * 64 * std::pow(part, -1 / stratified_gain));
-        const Redrawing all = redrawing(next.drawn, Histogram(budget_bins), budget);
+        const RoundSamples all = round_samples(next.sampled, Histogram(budget_bins), budget);
         check_close("samples", all.samples, drawn, 0);
         check_close("growth", next.growth, (drawn + kept) / (64 * 10000), 1e-12);
     }
@@ -191,19 +191,19 @@ void one_pixel_that_errs_most_is_drawn_anew(void**) {
     pixels.radiance[4 * worst + 3] = 1e6;
     Budget budget(budget_bins);
     for (uint32_t bin = 0; bin < budget_bins; ++bin) budget[bin] = uint32_t(std::clamp(std::round(426.55 * share_of(bin)), 16.0, 65536.0));
-    const Redraw next = redraw(pixels, {}, 2, Allocation::least_error, budget, 0.9);
-    for (size_t i = 0; i < 10000; ++i) assert_true((budget[next.bins[i]] >= worth_redrawing * 427) == (i == worst));
+    const Resampling next = plan_resampling(pixels, {}, 2, Allocation::least_error, budget, 0.9);
+    for (size_t i = 0; i < 10000; ++i) assert_true((budget[next.bins[i]] >= least_resampling_factor * 427) == (i == worst));
 }
 
 void further_rounds_within_a_cost_spend_it(void**) {
     Random random(20);
     const RoundPixels pixels = unequal(random, 10000, 64);
-    const Redraw next = redraw(pixels, {}, 2, Allocation::least_error, sixty_four_at_share_one(), 0);
-    Histogram fresh(budget_bins);
-    fresh[share_one] = 500;
+    const Resampling next = plan_resampling(pixels, {}, 2, Allocation::least_error, sixty_four_at_share_one(), 0);
+    Histogram new_pixels(budget_bins);
+    new_pixels[share_one] = 500;
     for (const double cost : {5e5, 5e6, 5e7}) {
-        const Budget budget = replan_cost(next.drawn, fresh, cost, 30, 1 << 20);
-        const Redrawing all = redrawing(next.drawn, fresh, budget);
+        const Budget budget = replan_cost(next.sampled, new_pixels, cost, 30, 1 << 20);
+        const RoundSamples all = round_samples(next.sampled, new_pixels, budget);
         check_at_most("cost", all.samples + 30 * all.pixels, cost);
         // Two kinds of pixels: one may be left out for want of samples for all of it.
         check_at_most("cost that is left", cost, 4 * (all.samples + 30 * all.pixels));
@@ -219,7 +219,7 @@ void lattice_points_are_drawn_anew_first(void**) {
     std::vector<float> areas(10000, 1);
     for (size_t i = 0; i < 10000; ++i)
         if (i % 100 % 4 == 0 && i / 100 % 4 == 0) areas[i] = 16;
-    const Redraw next = redraw(pixels, areas, 2, Allocation::least_error, sixty_four_at_share_one(), 0.7);
+    const Resampling next = plan_resampling(pixels, areas, 2, Allocation::least_error, sixty_four_at_share_one(), 0.7);
     for (size_t i = 0; i < 10000; ++i) {
         assert_true((sixty_four_at_share_one()[next.bins[i]] >= 128) == (areas[i] > 1));
     }
@@ -230,21 +230,21 @@ void lattice_points_are_drawn_anew_first(void**) {
 // 1000 pixels in a second, at 1000 samples a millisecond: some 900 of each, or 2.2 times as many of so few that each has them.
 void pixels_are_interpolated_in_time_where_it_pays(void**) {
     const Settings settings = asking("time_budget", 1000);
-    Pace pace;
-    pace.samples_per_millisecond = 1000;
+    Throughput throughput;
+    throughput.samples_per_millisecond = 1000;
     for (const uint64_t pixels : {300, 800}) {
-        Control control(settings, {1000, 1, 1}, 2, pace, 0);
+        ErrorControl control(settings, {1000, 1, 1}, 2, throughput, 0);
         Histogram histogram(budget_bins);
         histogram[share_one] = pixels;
-        assert_true(control.reconsider(histogram, 0) == (pixels > 500));
+        assert_true(control.replan(histogram, 0) == (pixels > 500));
         assert_true(control.interpolates() == (pixels < 500));
     }
 }
 
 Forecast probed(double error) {
     Forecast forecast{1000, 1, 1};
-    forecast.probed_error = error;
-    forecast.probe_samples = 64;
+    forecast.pilot_error = error;
+    forecast.pilot_samples = 64;
     return forecast;
 }
 
@@ -253,11 +253,11 @@ Forecast probed(double error) {
 void pixels_are_interpolated_where_it_pays(void**) {
     const Settings settings = asking("target_error", 0.02);
     for (const uint64_t pixels : {300, 800}) {
-        Control control(settings, probed(std::pow(0.8 * 0.02, 2)), 2, {}, 0);
+        ErrorControl control(settings, probed(std::pow(0.8 * 0.02, 2)), 2, {}, 0);
         Histogram histogram(budget_bins);
         histogram[share_one] = pixels;
         assert_true(control.interpolates());
-        assert_true(control.reconsider(histogram, 0) == (pixels > 500));
+        assert_true(control.replan(histogram, 0) == (pixels > 500));
         assert_true(control.interpolates() == (pixels < 500));
     }
 }
@@ -267,7 +267,7 @@ void a_probe_plans_the_first_round(void**) {
     const Settings settings = asking("target_error", 0.02);
     const double planned = 0.55 * 0.7 * std::pow(0.8 * 0.02, 2);
     for (const uint32_t bin : {3u, share_one, budget_bins - 1}) {
-        Control control(settings, probed(1e-3), 2, {}, 0);
+        ErrorControl control(settings, probed(1e-3), 2, {}, 0);
         Histogram histogram(budget_bins);
         histogram[bin] = 1000;
         // Samples are whole numbers: of some 300, a half is a six-hundredth.
@@ -277,27 +277,27 @@ void a_probe_plans_the_first_round(void**) {
 
 // Whichever comes first: of an error that shading all 1000 pixels reaches in 0.3 s, and one that they reach in 4, a second lasts for one.
 void an_error_is_kept_where_there_is_time_for_it(void**) {
-    Pace pace;
-    pace.samples_per_millisecond = 1000;
+    Throughput throughput;
+    throughput.samples_per_millisecond = 1000;
     for (const auto& [target, kept] : {std::pair(0.01, true), {0.002, false}}) {
         Settings settings = asking("time_budget", 1000);
         settings.set_number("target_error", target);
-        Control control(settings, probed(std::pow(0.8 * 0.01, 2) * std::pow(4, 1.2)), 2, pace, 0);
+        ErrorControl control(settings, probed(std::pow(0.8 * 0.01, 2) * std::pow(4, 1.2)), 2, throughput, 0);
         Histogram histogram(budget_bins);
         histogram[share_one] = 1000;
-        control.reconsider(histogram, 0);
+        control.replan(histogram, 0);
         const double each = control.plan(histogram, 0)[share_one];
         // 64 samples leave 4^1.2 times the noise allowed of 256; or the first of two rounds has 0.15 s for all.
-        check_close("samples of each", each, kept ? 256 : 0.15 * 1000 - Pace::pixel_samples, 1);
+        check_close("samples of each", each, kept ? 256 : 0.15 * 1000 - Throughput::pixel_samples, 1);
     }
 }
 
 void a_time_is_shared_between_two_rounds(void**) {
     const Settings settings = asking("time_budget", 1000);
-    Pace pace;
-    pace.samples_per_millisecond = 1000;
-    pace.round_milliseconds = 20;
-    Control control(settings, {1520, 1, 1}, 2, pace, 10);
+    Throughput throughput;
+    throughput.samples_per_millisecond = 1000;
+    throughput.round_milliseconds = 20;
+    ErrorControl control(settings, {1520, 1, 1}, 2, throughput, 10);
     const Histogram histogram = some_histogram();
     const auto samples = [&](const Budget& budget) {
         double sum = 0;
@@ -306,7 +306,7 @@ void a_time_is_shared_between_two_rounds(void**) {
     };
     const double first = samples(control.plan(histogram, 10));
     // What 1,520 pixels cost before their first sample is taken off the time.
-    const double before_first = 1520 * Pace::pixel_samples;
+    const double before_first = 1520 * Throughput::pixel_samples;
     check_close("first round, milliseconds", (first + before_first) / 1000, 0.15 * (1000 - 10 - 12), 2);
     RoundCost cost;
     cost.samples = uint64_t(first);
@@ -314,18 +314,18 @@ void a_time_is_shared_between_two_rounds(void**) {
     cost.shading_milliseconds = 2 * (first + before_first) / 1000;  // half as fast as it was thought to be
     cost.other_milliseconds = 20;
     cost.elapsed_milliseconds = 10 + cost.shading_milliseconds + 20;
-    assert_true(control.again(estimate_of(0.01, 0), cost));
-    const std::vector<DrawnGroup> drawn = {{30, 16, 1000}, {33, 16, 500}, {36, 16, 20}};
+    assert_true(control.needs_another_round(estimate_of(0.01, 0), cost));
+    const std::vector<SampledGroup> drawn = {{30, 16, 1000}, {33, 16, 500}, {36, 16, 20}};
     const Budget second = control.plan_further(drawn, Histogram(budget_bins), cost.elapsed_milliseconds);
     check_close("second round, milliseconds", (samples(second) + before_first) / 500, 1000 - cost.elapsed_milliseconds - 12, 4);
     cost.elapsed_milliseconds = 990;
-    assert_false(control.again(estimate_of(0.01, 0), cost));
+    assert_false(control.needs_another_round(estimate_of(0.01, 0), cost));
     // A round that made programs says nothing of those that will find them.
-    const double before = control.pace().samples_per_millisecond;
+    const double before = control.throughput().samples_per_millisecond;
     cost.made_programs = true;
     cost.shading_milliseconds *= 10;
-    control.again(estimate_of(0.01, 0), cost);
-    check_close("pace", control.pace().samples_per_millisecond, before, 0);
+    control.needs_another_round(estimate_of(0.01, 0), cost);
+    check_close("throughput", control.throughput().samples_per_millisecond, before, 0);
 }
 
 }  // namespace
