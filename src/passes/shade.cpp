@@ -18,7 +18,7 @@ constexpr uint32_t group = 32;
 
 std::string definitions(const Light& light, const Material& material, const Settings& settings) {
     std::string result = material.definitions(settings.brdf_lookup()) +
-                         text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples, "\nWORTH_REDRAWING ",
+                         text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", part_samples, "\nLEAST_RESAMPLING_FACTOR ",
                               least_resampling_factor, "u");
     if (settings.sequence() == Sequence::random) result += "\nSEQUENCE_RANDOM";
     switch (settings.sampler()) {

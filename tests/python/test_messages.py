@@ -115,6 +115,7 @@ RIGHT: dict[str, dict[str, object]] = {
     "Frame.__getitem__": {"name": "samples"},
     "Frame.__setitem__": {"name": "samples", "value": 8},
     "Frame.render": {"scene": None, "progress": None},
+    "Frame.plan_for": {"scene": None},
     "Frame.save": {"path": "x.png", "fields": None, "exposure": 0.0, "tone_curve": "none", "alpha": "coverage"},
     "Frame.buffer": {"name": "color"},
     "Frame.pyramid": {"name": "level_pyramid"},
