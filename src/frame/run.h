@@ -6,7 +6,7 @@
 #include "frame/control_subset.h"
 #include "frame/resampling.h"
 #include "frame/run_state.h"
-#include "passes/classify.h"
+#include "passes/shading_list.h"
 #include "passes/shade.h"
 
 namespace lightband {

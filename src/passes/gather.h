@@ -1,7 +1,7 @@
 // What a few pixels show, without reading the others back.
 #pragma once
 
-#include "passes/classify.h"
+#include "passes/shading_list.h"
 
 namespace lightband::passes {
 

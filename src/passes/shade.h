@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "passes/classify.h"
+#include "passes/shading_list.h"
 
 namespace lightband::passes {
 
