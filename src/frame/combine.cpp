@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "picture/constants.h"
 #include "picture/decision.h"
 
 namespace lightband {
 namespace {
-
-// A tile's sums are joined by so many pixels that saw the frame's means, as a few pixels know a variance badly.
-constexpr double prior_pixels = 8;
-
-// A pixel that differs from the interpolated value by more standard deviations of the noise around it is an edge, and keeps its own value;
-// sooner where something speaks against interpolation. Chosen by bench/speckle.py: with 3 for both, the error of the blob at 5 % was
-// 1.1 times what it is without combining; with 2.5 for both, 3.8 pixels in 1,000 of the sphere at 2 % stand out, with these 2.7.
-constexpr double sure_deviations = 4, sure_deviations_doubtful = 2.6;
 
 // Sums over comparable pixels of squares relative to their scales. With own value y, spread s, and interpolated value z, spread t:
 struct Sums {
@@ -37,7 +30,7 @@ bool is_comparable(const RoundPixels& pixels, size_t at) {
 }
 
 // A squared error counts up to 1, as those of control and of validation pixels do.
-double clamped_square(double square) { return std::clamp(square, -BiasEstimate::largest_square, BiasEstimate::largest_square); }
+double clamped_square(double square) { return std::clamp(square, -constants::largest_square, constants::largest_square); }
 
 Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
     const double scale = scale_of(pixels, at, mean);
@@ -52,12 +45,11 @@ Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
 // part of it; then D - N is too much. Across twice the distance the squared error of interpolation is at least twice as large (beside an
 // edge; 16 times where the picture is smooth), while noise falls as the spreads do: so D' - (N' / N) D >= (2 - N' / N) I as well.
 double interpolation_of(const Sums& here, const Sums& coarser, double calibration) {
-    constexpr double least_growth = 2;
     const double most = std::max(here.deviation - calibration * here.noise, 0.0) / here.count;
     if (!(coarser.count > 0) || !(here.noise > 0)) return most;
     const double fall = std::min(coarser.noise / coarser.count / (here.noise / here.count), 1.0);
     const double grown = std::max(coarser.deviation / coarser.count - fall * here.deviation / here.count, 0.0);
-    return std::min(most, grown / (least_growth - fall));
+    return std::min(most, grown / (constants::least_interpolation_growth - fall));
 }
 
 // What a mean squared deviation is made of.
@@ -106,7 +98,7 @@ public:
     Sums around(size_t at) const {
         const Kind kind = kind_of(at);
         Sums result = of_tile_[tiles_.of[at] * kinds + kind];
-        const double prior = prior_pixels / of_all_[kind].count;
+        const double prior = constants::prior_combined_pixels / of_all_[kind].count;
         result.add(of_all_[kind], prior);
         result.add(sums_of(pixels_, at, mean_), -1 - prior);
         return result;
@@ -122,7 +114,7 @@ public:
         prior.noise *= scale;
         prior.deviation *= scale;
         Sums result = of_tile_[tiles_.of[at] * kinds + coarser];
-        result.add(prior, prior_pixels / prior.count);
+        result.add(prior, constants::prior_combined_pixels / prior.count);
         return result;
     }
 
@@ -151,7 +143,7 @@ std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const ControlSet
         const Sums around = pools.around(i);
         if (!(around.count > 0) || !(around.noise > 0)) continue;
         const Split squares = split(around, kind == Pools::finest ? pools.coarser_around(i, around) : Sums(), calibration);
-        const double most = kind == Pools::finest ? sure_deviations : sure_deviations_doubtful;
+        const double most = kind == Pools::finest ? constants::edge_deviations : constants::doubtful_edge_deviations;
         if (pools.of(i).deviation > most * most * squares.noise) continue;
         parts[i] = uint8_t(std::lround(255 * best_part(around, squares, frames)));
     }

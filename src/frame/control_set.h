@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "picture/constants.h"
 #include "picture/settings.h"
 
 namespace lightband {
@@ -41,17 +42,8 @@ struct ControlSet {
         double part = 0;
         uint32_t samples = 0, pilot = 0;
     };
-    // affordable: samples that a frame with a time budget has time for, the fixed cost of its pixels included (Throughput::pixel_samples).
+    // affordable: samples that a frame with a time budget has time for, the fixed cost of its pixels included (constants::pixel_samples).
     static Effort effort(const Settings& settings, double covered_pixels, double affordable);
-    // Control samples for each sample of the pixel.
-    static constexpr double gain = 4;
-    // Every so many-th pixel shaded by a light cut is rechecked by a sampler without bias (frame/recheck.h), of few pixels all; and besides
-    // the part of them where pilot and control samples differ most.
-    static constexpr size_t recheck_stride = 4, fewest_rechecked = 64;
-    static constexpr double differing_part = 0.05;
-    // A bias that is harmless, in parts of the frame's error: a half of it adds an eighth to the whole. The directions of the map that all
-    // pixels of an unbiased frame share leave a quarter of a percent themselves (docs/decisions/0006).
-    static constexpr double harmless_part = 0.5, least_difference = 0.003;
     // So many samples without bias err less than that many pilot samples of a light cut.
     static uint32_t unbiased_samples(double pilot);
     // Whether samples without bias have found light that the cut has missed. They may miss a small source themselves: that they saw less
@@ -82,7 +74,7 @@ public:
     void add(double square, double estimated);
     // Of a pixel that has outgrown its control samples, whose spread is taken for its error. Without these, the pixels that got more samples
     // because they err most would drop out, and the others would stand for all.
-    void add_clamped(double estimated) { add(std::min(estimated, largest_square), estimated); }
+    void add_clamped(double estimated) { add(std::min(estimated, constants::largest_square), estimated); }
 
     // What a mean squared error is beyond `noise`, which the spreads estimate, weighted by its certainty; negative where the spreads
     // estimate more than there is.
@@ -92,13 +84,6 @@ public:
     Bias beyond(double noise) const;
     // The mean squared error of the pixels themselves.
     double error() const;
-
-    // A squared error counts at most as the square of what the pixel displays: those of few samples go far beyond, and one of them would
-    // outweigh all others.
-    static constexpr double largest_square = 1;
-
-    // The noise is not taken to be less than this part of what the spreads estimate.
-    static constexpr double least_bias_ratio = 0.1;
 
 private:
     double part_;

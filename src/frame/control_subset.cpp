@@ -30,7 +30,7 @@ bool ControlSubset::needs_recheck() const { return run_.settings.sampler() == Sa
 bool ControlSubset::is_outgrown_by(double planned) {
     if (run_.settings.sampler() != Sampler::cut || part_ == 0 || run_.asked.time_budget() > 0 || planned == 0) return false;
     if (control_.has_enough_samples_for(planned)) return false;
-    effort_.samples = uint32_t(ControlSet::gain * planned);
+    effort_.samples = uint32_t(constants::control_gain * planned);
     return true;
 }
 
@@ -118,7 +118,7 @@ double ControlSubset::pilot_error() const {
 // which are the likeliest to miss light.
 std::vector<ControlSubset::Rechecked> ControlSubset::choose_rechecked() const {
     const std::vector<ControlSet::Pixel>& control = control_.pixels;
-    const size_t count = control.size(), stride = count <= ControlSet::fewest_rechecked ? 1 : ControlSet::recheck_stride;
+    const size_t count = control.size(), stride = double(count) <= constants::fewest_rechecked ? 1 : size_t(constants::recheck_stride);
     std::vector<double> difference(count);
     std::vector<size_t> by_difference(count);
     for (size_t k = 0; k < count; ++k) {
@@ -128,7 +128,7 @@ std::vector<ControlSubset::Rechecked> ControlSubset::choose_rechecked() const {
     }
     std::sort(by_difference.begin(), by_difference.end(), [&](size_t a, size_t b) { return difference[a] > difference[b]; });
     std::vector<bool> differs(count);
-    for (size_t i = 0; i < size_t(std::ceil(ControlSet::differing_part * double(count))); ++i) differs[by_difference[i]] = true;
+    for (size_t i = 0; i < size_t(std::ceil(constants::differing_part * double(count))); ++i) differs[by_difference[i]] = true;
     std::vector<Rechecked> chosen;
     for (size_t k = 0; k < count; ++k) {
         const bool regular = k % stride == 0;  // pixels lie in the picture's order: so these are spread over it
@@ -145,7 +145,7 @@ Done ControlSubset::recheck() {
     const std::vector<Rechecked> chosen = choose_rechecked();
     std::vector<uint32_t> pixels;
     for (const Rechecked& one : chosen) pixels.push_back(control[one.place].at);
-    unbiased_samples_ = ControlSet::unbiased_samples(control_.samples / ControlSet::gain);
+    unbiased_samples_ = ControlSet::unbiased_samples(control_.samples / constants::control_gain);
     const std::vector<ControlSet::Pixel> seen = shade_alike(pixels, with_sampler(run_.asked, "combined"), unbiased_samples_, control_seed);
     std::vector<RecheckedPixel> rechecked;
     for (size_t i = 0; i < chosen.size(); ++i) {
@@ -156,7 +156,7 @@ Done ControlSubset::recheck() {
             rechecked.push_back({few / scale, cut.mean / scale, seen[i].mean / scale, seen[i].spread / scale, seen[i].deviation / scale});
         if (chosen[i].differs && ControlSet::sees_more_than(seen[i], cut)) cut = seen[i];
     }
-    const double few_samples = pilots_.empty() ? control_.samples / ControlSet::gain : pilot_samples_;
+    const double few_samples = pilots_.empty() ? control_.samples / constants::control_gain : pilot_samples_;
     const Recheck result = lightband::recheck(rechecked, {few_samples, double(control_.samples), double(unbiased_samples_)});
     contradicted_ = result.contradicts(harmless_difference());
     return {pixels.size() * unbiased_samples_, "samples",
@@ -177,13 +177,13 @@ double ControlSubset::harmless_difference() const {
         }
         error = std::sqrt(std::max(spreads, differences) / std::max(double(pilots_.size()), 1.0));
     }
-    return std::max(ControlSet::harmless_part * error, ControlSet::least_difference);
+    return std::max(constants::harmless_part * error, constants::least_difference);
 }
 
 // The light cut does not converge: the frame is shaded by the sampler without bias that errs less, and compared with other samples without
 // bias.
 Done ControlSubset::replace_sampler() {
-    const uint32_t samples = std::max(pilot_samples_, uint32_t(control_.samples / ControlSet::gain));
+    const uint32_t samples = std::max(pilot_samples_, uint32_t(control_.samples / constants::control_gain));
     control_.pixels = shade_alike(pixels_, with_sampler(run_.asked, "combined"), unbiased_samples_, control_seed);
     std::vector<double> errors;
     std::vector<std::vector<ControlSet::Pixel>> pilots;

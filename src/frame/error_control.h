@@ -22,9 +22,7 @@ struct RoundCost {
 
 // A model of how fast a device shades, updated from round to round and from frame to frame.
 struct Throughput {
-    // The fixed cost of a shaded pixel, in samples: the selection probabilities of the map's clusters, or the initial light cut.
-    static constexpr double pixel_samples = 30;
-    double samples_per_millisecond = 5000;  // with that cost counted; a guess, until a frame has measured it
+    double samples_per_millisecond = 5000;  // the fixed cost of pixels counted as samples (constants::pixel_samples); a guess, until a frame has measured it
     bool known = false;                     // whether one has
     double of_first_round = 0;              // the same of the first of two rounds, whose few samples each cost otherwise; 0: not measured
     double round_milliseconds = 0;          // of a round beside its shading

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "picture/constants.h"
 #include "picture/decision.h"
 
 namespace lightband {
@@ -27,20 +28,10 @@ double displayed_variance(const RoundPixels& pixels, size_t at) {
     return part > 0 ? (1 - part) * (1 - part) * own + part * part * std::abs(double(pixels.spread[4 * at + 3])) : own;
 }
 
-// The spread of a single pair of replicates has one degree of freedom: so many pixels with the noise of independent samples are added, or a
-// tiny frame might be estimated to be free of noise by chance.
-constexpr double prior_pixels = 8;
-
 // Squared errors of interpolation of the validation pixels of one slot.
 struct ValidationSums {
     double sum = 0, squares = 0;
 };
-
-// A pixel's error is relative to what it displays, clamped to these parts of what was predicted: a sample that is far too bright would else
-// raise the luminance that its own error is divided by; a few that miss the light would make any error look large. Sixteen prediction
-// directions know the mean to better than that, unless they miss a small source that many samples find: the displayed value less three of
-// its standard deviations counts in any case.
-constexpr double least_expected = 0.5, most_expected = 1.5, sure_deviations = 3;
 
 // A pixel of the control set compared with its control samples; squared and relative.
 struct Comparison {
@@ -98,7 +89,7 @@ double interpolated_part(const RoundPixels& pixels, size_t at) {
 // the replicates estimate of that, times their calibration, is subtracted.
 double interpolation_square(const RoundPixels& pixels, size_t at, double scale, double calibration) {
     const double deviation = pixels.spread[4 * at + 1] / scale, difference = pixels.spread[4 * at + 2] / scale;
-    return std::clamp(deviation * deviation - calibration * difference * difference, -BiasEstimate::largest_square, BiasEstimate::largest_square);
+    return std::clamp(deviation * deviation - calibration * difference * difference, -constants::largest_square, constants::largest_square);
 }
 
 double common_mode_of(const std::vector<Comparison>& compared) {
@@ -120,10 +111,6 @@ double interpolated_part(const RoundPixels& pixels, const std::vector<Comparison
     return validation > 0 ? std::min(interpolated / covered / (validation / double(compared.size())), 1.0) : 0;
 }
 
-// Unbiased samples of all pixels share the directions of the map, so that about so much of their error is common (sampling/map_sampler,
-// docs/decisions/0006).
-constexpr double error_of_directions = 0.002;
-
 // A common error of all pixels that a comparison with unbiased samples does not show: the squared standard error of the mean deviation from
 // them, and their own common error.
 double unseen_by_unbiased(const std::vector<Comparison>& compared) {
@@ -135,7 +122,7 @@ double unseen_by_unbiased(const std::vector<Comparison>& compared) {
         squares += pixel.deviation * pixel.deviation;
     }
     if (count < 2) return 0;
-    return std::max(squares - sum * sum / count, 0.0) / (count - 1) / count + error_of_directions * error_of_directions;
+    return std::max(squares - sum * sum / count, 0.0) / (count - 1) / count + constants::error_of_directions * constants::error_of_directions;
 }
 
 // Validation pixels of the control set stand for the pixels that might be interpolated, whether they are or not.
@@ -154,7 +141,7 @@ void add_bias(const RoundPixels& pixels, const std::vector<Comparison>& compared
         pixel.add_to(&sum, square + (pixel.own_part > 0 ? common : 0), estimated);
     }
     const BiasEstimate::Bias bias = sum.beyond(estimate->noise + estimate->interpolation);
-    estimate->bias = std::max(bias.mean, (BiasEstimate::least_bias_ratio - 1) * estimate->noise) + unseen_by_unbiased(compared);
+    estimate->bias = std::max(bias.mean, (constants::least_bias_ratio - 1) * estimate->noise) + unseen_by_unbiased(compared);
     estimate->bias_deviation = bias.deviation;
 }
 
@@ -185,12 +172,12 @@ struct NoiseSums {
 }  // namespace
 
 double scale_of(double displayed, double expected, double mean_luminance) {
-    if (expected > 0) displayed = std::clamp(displayed, least_expected * expected, most_expected * expected);
+    if (expected > 0) displayed = std::clamp(displayed, constants::least_expected * expected, constants::most_expected * expected);
     return displayed + dark_part * mean_luminance;
 }
 
 double scale_of(const RoundPixels& pixels, size_t at, double mean_luminance) {
-    const double displayed = displayed_luminance(pixels, at), sure = displayed - sure_deviations * std::sqrt(displayed_variance(pixels, at));
+    const double displayed = displayed_luminance(pixels, at), sure = displayed - constants::sure_pixel_deviations * std::sqrt(displayed_variance(pixels, at));
     const double scale = scale_of(displayed, pixels.expected.empty() ? 0 : pixels.expected[at], mean_luminance);
     return std::max(scale, sure + dark_part * mean_luminance);
 }
@@ -241,7 +228,7 @@ ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32
     const NoiseSums sums(pixels, result.mean_luminance);
     if (sums.covered == 0) return result;
     if (sums.variances > 0) {
-        const double prior = prior_pixels * sums.variances / sums.covered;
+        const double prior = constants::prior_noise_pixels * sums.variances / sums.covered;
         result.stratification = (sums.spreads + prior) / (sums.variances + prior);
     }
     sums.write(&result);

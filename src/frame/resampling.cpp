@@ -4,14 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "picture/constants.h"
 #include "picture/decision.h"
 
 namespace lightband {
 namespace {
 
-// So many samples measure a pixel's variance as well as the mean variance of all pixels stands for it: with a kurtosis of this much, the
-// variance measured by n = kurtosis samples is off by as much as itself, and pixels differ from each other by about as much.
-constexpr double prior_samples = 16;
 // Half a bin, as a factor on the number of samples.
 const double half_a_bin = std::exp2(0.5 / bins_per_octave);
 // Pixels are grouped by the logarithm of the samples that they should get over those that they have, in steps of 2^(1 / 16).
@@ -33,7 +31,7 @@ std::vector<Candidate> candidates(const RoundPixels& pixels, double mean_luminan
         sum += result.back().noise;
     }
     for (Candidate& pixel : result) {
-        const double weight = pixel.samples / (pixel.samples + prior_samples);
+        const double weight = pixel.samples / (pixel.samples + constants::prior_samples);
         pixel.noise = weight * pixel.noise + (1 - weight) * sum / double(result.size());
     }
     return result;
@@ -54,7 +52,7 @@ double factor_leaving(double part, const std::vector<Candidate>& candidates) {
         double left = 0;
         for (const auto& [step, sum] : noise) {
             const double octaves = middle + step / steps_per_octave;
-            left += octaves >= std::log2(double(least_resampling_factor)) ? sum * std::exp2(-stratified_gain * octaves) : sum;
+            left += octaves >= std::log2(double(least_resampling_factor)) ? sum * std::exp2(-constants::stratified_gain * octaves) : sum;
         }
         (left > part * all ? low : high) = middle;
     }
@@ -81,10 +79,10 @@ Resampling plan_resampling(const RoundPixels& pixels, const std::vector<float>& 
         // Up to a factor: the number that would make all errors alike; or at which one more sample of any pixel would reduce the frame's
         // error by as much.
         if (allocation == Allocation::constant_variance) {
-            pixel.wanted = pixel.samples * std::pow(pixel.noise, 1 / stratified_gain);
+            pixel.wanted = pixel.samples * std::pow(pixel.noise, 1 / constants::stratified_gain);
         } else {
             if (!areas.empty()) pixel.noise *= double(areas[pixel.at]);
-            pixel.wanted = pixel.samples * std::pow(pixel.noise / pixel.samples, 1 / (1 + stratified_gain));
+            pixel.wanted = pixel.samples * std::pow(pixel.noise / pixel.samples, 1 / (1 + constants::stratified_gain));
         }
         wanted += pixel.wanted;
         had += pixel.samples;

@@ -373,7 +373,7 @@ double Run::expected_shading() const {
     const double covered = state_.covered.all.count;
     const double each = settings.target_error() > 0 ? times_pilot_samples * ControlSet::effort(settings, covered, 0).pilot
                                                     : double(settings.samples()) * settings.accumulate();
-    return covered * (Throughput::pixel_samples + each) / state_.throughput.samples_per_millisecond;
+    return covered * (constants::pixel_samples + each) / state_.throughput.samples_per_millisecond;
 }
 
 // Tells the progress callback how far a frame is whose tables may still be made, which takes seconds once: as long as they have taken is

@@ -29,8 +29,6 @@ double predicted_noise(const Histogram& histogram, const Budget& budget, Allocat
 // The fewest samples whose predicted_noise is at most `noise`, or as many as `most` lets.
 Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Allocation allocation);
 
-// Noise falls as the samples to this power: 1 for independent ones; 1.15 to 1.35 were measured.
-constexpr double stratified_gain = 1.2;
 // A pixel is sampled again from the start or left as it is. Its squared error e becomes e r^-g with r times the samples, and the sum over
 // pixels is least where one more sample of any pixel reduces it by as much; so sampling one again reduces it by as much as its samples
 // would elsewhere from

@@ -168,7 +168,7 @@ void what_varies_most_is_drawn_anew(void**) {
             assert_true(varies(i) || !anew);
             assert_true(anew || next.bins[i] == 0);  // listed apart
             before += noise;
-            after += anew ? noise * std::pow(more, -stratified_gain) : noise;
+            after += anew ? noise * std::pow(more, -constants::stratified_gain) : noise;
             (anew ? drawn : kept) += anew ? budget[next.bins[i]] : 64;
         }
         // Pixels move to whole bins, a quarter of an octave apart, and of 64 samples a fifth of the variance is taken from the mean of all:
@@ -176,7 +176,7 @@ void what_varies_most_is_drawn_anew(void**) {
         check_at_most("noise left over what was asked for", after / before / part, 1.25);
         check_at_most("what was asked for less what quiet pixels seem to leave", part - 0.9 * 0.12 / 0.44, 1.25 * after / before);
         // Noise of all pixels would be lessened so by samples of all.
-        check_at_most("samples over those of drawing all anew", drawn, 0.5 * 10000 * 64 * std::pow(part, -1 / stratified_gain));
+        check_at_most("samples over those of drawing all anew", drawn, 0.5 * 10000 * 64 * std::pow(part, -1 / constants::stratified_gain));
         const RoundSamples all = round_samples(next.sampled, Histogram(budget_bins), budget);
         check_close("samples", all.samples, drawn, 0);
         check_close("growth", next.growth, (drawn + kept) / (64 * 10000), 1e-12);
@@ -288,7 +288,7 @@ void an_error_is_kept_where_there_is_time_for_it(void**) {
         control.replan(histogram, 0);
         const double each = control.plan(histogram, 0)[share_one];
         // 64 samples leave 4^1.2 times the noise allowed of 256; or the first of two rounds has 0.15 s for all.
-        check_close("samples of each", each, kept ? 256 : 0.15 * 1000 - Throughput::pixel_samples, 1);
+        check_close("samples of each", each, kept ? 256 : 0.15 * 1000 - constants::pixel_samples, 1);
     }
 }
 
@@ -306,7 +306,7 @@ void a_time_is_shared_between_two_rounds(void**) {
     };
     const double first = samples(control.plan(histogram, 10));
     // What 1,520 pixels cost before their first sample is taken off the time.
-    const double before_first = 1520 * Throughput::pixel_samples;
+    const double before_first = 1520 * constants::pixel_samples;
     check_close("first round, milliseconds", (first + before_first) / 1000, 0.15 * (1000 - 10 - 12), 2);
     RoundCost cost;
     cost.samples = uint64_t(first);

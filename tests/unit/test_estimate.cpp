@@ -340,7 +340,7 @@ void an_audit_takes_what_it_may(void**) {
     assert_int_equal(ControlSet::effort(settings, 30000, 0).samples, 1125);  // 5 / (0.02 / 0.3)^2
     settings.set_number("time_budget", 50);
     const ControlSet::Effort hurried = ControlSet::effort(settings, 30000, 250000);
-    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + Throughput::pixel_samples), 1.2 * 0.06 * 250000);
+    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + constants::pixel_samples), 1.2 * 0.06 * 250000);
     assert_true(hurried.part * 30000 >= 64);
     // 64 pixels of 64 samples, and 30 before the first, are 6 % of 100,267.
     assert_true(ControlSet::effort(settings, 30000, 101000).part > 0 && ControlSet::effort(settings, 30000, 100000).part == 0);

@@ -20,7 +20,7 @@ double normal(Random* random) { return std::sqrt(-2 * std::log(1 - random->unifo
 Recheck of_pixels(uint64_t seed, double few, double lost, double noise) {
     Random random(seed);
     std::vector<RecheckedPixel> pixels;
-    const double falls = std::pow(samples.few / samples.many, 0.5 * stratified_gain);
+    const double falls = std::pow(samples.few / samples.many, 0.5 * constants::stratified_gain);
     for (int i = 0; i < 72; ++i) {
         const double alike = few * std::sqrt(0.5), a = alike * normal(&random), b = alike * falls * normal(&random);
         const double first = noise * std::sqrt(2.0) * normal(&random), second = noise * std::sqrt(2.0) * normal(&random);
