@@ -2,6 +2,7 @@
 #include <ImfStandardAttributes.h>
 
 #include <new>
+#include <string_view>
 
 #include "base/error.h"
 #include "io/cube_map.h"
@@ -39,15 +40,21 @@ RgbImage read_layer(const std::vector<uint8_t>& bytes, const std::string& name, 
     return image;
 }
 
-// OpenEXR passes on that memory ran out as an exception of its own, with the text of the first one.
+bool ends_in(std::string_view words, std::string_view end) {
+    return words.size() >= end.size() && words.substr(words.size() - end.size()) == end;
+}
+
+// OpenEXR reports that memory ran out by exceptions of its own. They end in the words of a former std::bad_alloc, or in those
+// of ScanLineInputFile.
 bool tells_of_memory(const std::exception& reason) {
-    return std::string(reason.what()).find(std::bad_alloc().what()) != std::string::npos;
+    return ends_in(reason.what(), std::bad_alloc().what()) || ends_in(reason.what(), "Failed to allocate memory for scanline buffers");
 }
 
 }  // namespace
 
-// Where zlib gets no memory, OpenEXR says no more than that decompression failed, as of a damaged file. But a damaged file
-// fails whenever it is read, and so it is read twice.
+// Where zlib gets no memory, OpenEXR says no more than that decompression failed, as of a damaged file. If memory is still
+// short right after that, read_window throws std::bad_alloc. If not, another thread has released some in the meantime, and
+// the second attempt succeeds; it fails only with a damaged file.
 RgbImage parse_exr(const std::vector<uint8_t>& bytes, const std::string& name, const std::string& layer) {
     for (bool again : {false, true}) {
         try {
@@ -58,11 +65,7 @@ RgbImage parse_exr(const std::vector<uint8_t>& bytes, const std::string& name, c
             throw;
         } catch (const std::exception& reason) {
             if (tells_of_memory(reason)) throw std::bad_alloc();
-            if (!again) continue;
-            // More than zlib asks for to decompress (zconf.h: 44 kB). Where this is not to be had, neither was that.
-            constexpr size_t zlib_bytes = 1 << 16;
-            const std::vector<uint8_t> probe(zlib_bytes);
-            throw Error(LB_ERROR_FORMAT, text(name, ": OpenEXR cannot read it: ", reason.what()));
+            if (again) throw Error(LB_ERROR_FORMAT, text(name, ": OpenEXR cannot read it: ", reason.what()));
         }
     }
     throw Error(LB_ERROR_INTERNAL, "parse_exr: not reached");

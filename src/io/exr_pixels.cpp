@@ -8,6 +8,8 @@
 #include <ImfTiledInputPart.h>
 
 #include <algorithm>
+#include <exception>
+#include <new>
 
 #include "base/error.h"
 #include "io/exr_streams.h"
@@ -45,6 +47,19 @@ void spread_grey(const ColourChannels& channels, std::vector<float>* rgb) {
     for (size_t i = 0; i < rgb->size(); i += 3) (*rgb)[i + 1] = (*rgb)[i + 2] = (*rgb)[i];
 }
 
+// Runs a call of OpenEXR that decodes pixels. If it fails and memory is short, throws std::bad_alloc instead: OpenEXR does
+// not say which of the two it was where zlib failed. Memory is tried here, because the callers free what they hold.
+template <class Call>
+void decode(const Call& call) {
+    try {
+        call();
+    } catch (const std::exception&) {
+        constexpr size_t more_than_zlib_needs = 1 << 16;  // zconf.h: about 44 kB to decompress
+        ::operator delete(::operator new(more_than_zlib_needs));  // direct calls, which compilers do not leave out
+        throw;
+    }
+}
+
 // One chunk to a call of OpenEXR, in all that follows: where memory runs out within a chunk, OpenEXR 3.1 notes it, goes on
 // to the next one with the same decoder, and that of DWAA and DWAB then writes into buffers that it did not get (before
 // 3.3, whose decoders are others).
@@ -59,7 +74,7 @@ void read_scanlines(Imf::InputPart input, const ColourChannels& channels, const 
         if (!place.intersects(window)) continue;
         rgb.resize(width_of(place) * height_of(place) * 3);
         input.setFrameBuffer(frame_buffer(channels, place, rgb.data()));
-        input.readPixels(place.min.y, place.max.y);
+        decode([&] { input.readPixels(place.min.y, place.max.y); });
         spread_grey(channels, &rgb);
         use(place, rgb.data());
     }
@@ -75,7 +90,7 @@ void read_tiles(Imf::TiledInputPart input, const ColourChannels& channels, const
             if (!place.intersects(window)) continue;
             rgb.resize(width_of(place) * height_of(place) * 3);
             input.setFrameBuffer(frame_buffer(channels, place, rgb.data()));
-            input.readTile(x, y, finest);
+            decode([&] { input.readTile(x, y, finest); });
             spread_grey(channels, &rgb);
             use(place, rgb.data());
         }
@@ -92,7 +107,7 @@ void read_luminance_chroma(const std::vector<uint8_t>& bytes, const std::string&
     for (int y = std::max(data.min.y, window.min.y); y <= std::min(data.max.y, window.max.y); ++y) {
         const Imath::Box2i place({data.min.x, y}, {data.max.x, y});
         file.setFrameBuffer(Imf::ComputeBasePointer(line.data(), place), 1, line.size());
-        file.readPixels(y);
+        decode([&] { file.readPixels(y); });
         for (size_t x = 0; x < line.size(); ++x) {
             rgb[x * 3 + 0] = line[x].r;
             rgb[x * 3 + 1] = line[x].g;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "io/file.h"
 #include "io/merl.h"
 #include "materials/builtin_models.h"
 
@@ -35,6 +36,7 @@ bool agrees(const BrdfTable& table, const ReflectanceModel& model) {
 
 // Reads the table that an earlier call left. False when there is none, or when it is damaged or another model's.
 bool read_cache(const std::filesystem::path& file, const ReflectanceModel& model, BrdfTable& table) {
+    if (!io::exists(file.string())) return false;
     try {
         table = io::read_merl(file.string());
     } catch (const Error&) {

@@ -48,6 +48,7 @@ Module modules[] = {
     {"libstdc++.so", Owner::runtime},
 };
 std::atomic<bool> begun{false};
+std::atomic<bool> dwa_blocks_spared{false};
 
 int find_module(dl_phdr_info* info, size_t, void*) {
     const char* slash = std::strrchr(info->dlpi_name, '/');
@@ -180,12 +181,22 @@ void* allocate(size_t bytes, void* return_address, Get get) {
     return address;
 }
 
+void* allocate_aligned(size_t alignment, size_t bytes, void* return_address) {
+    const auto get = [&] { return __libc_memalign(alignment, bytes); };
+    constexpr size_t largest_dwa_block = 64 * sizeof(float);
+    const bool is_dwa_block = bytes <= largest_dwa_block && owner_of(uintptr_t(return_address)) == Owner::openexr;
+    if (is_dwa_block && dwa_blocks_spared) return get();
+    return allocate(bytes, return_address, get);
+}
+
 }  // namespace
 
 void begin() {
     dl_iterate_phdr(find_module, nullptr);
     begun = true;
 }
+
+void spare_dwa_blocks() { dwa_blocks_spared = true; }
 
 void fail_after(int64_t granted, Failing failing) {
     end_of_failing = failing == Failing::one ? allocations + granted + 1 : never;
@@ -243,7 +254,7 @@ __attribute__((visibility("default"), noinline)) void* aligned_alloc(size_t alig
     return allocate(bytes, CALLER, [&] { return __libc_memalign(alignment, bytes); });
 }
 __attribute__((visibility("default"), noinline)) int posix_memalign(void** out, size_t alignment, size_t bytes) {
-    void* const address = allocate(bytes, CALLER, [&] { return __libc_memalign(alignment, bytes); });
+    void* const address = failing_memory::allocate_aligned(alignment, bytes, CALLER);
     if (address == nullptr) return ENOMEM;
     *out = address;
     return 0;

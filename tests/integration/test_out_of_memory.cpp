@@ -125,7 +125,9 @@ void print(const Scenario& scenario, const Course& course, int64_t granted) {
         std::fflush(stdout);  // where the process ends in this call, it has said in which
         Outcome outcome = attempt(scenario, course, granted, failing);
         std::replace(outcome.message.begin(), outcome.message.end(), '"', '\'');
-        std::printf("%s,%s,%lld,%lld,\"%s\"\n", outcome.failed ? lb_result_name(outcome.result) : "no failure",
+        const bool recovered = scenario.recovers && outcome.result == LB_OK;
+        const char* const result = recovered ? "recovered" : lb_result_name(outcome.result);
+        std::printf("%s,%s,%lld,%lld,\"%s\"\n", outcome.failed ? result : "no failure",
                     outcome.same ? "yes" : "no", (long long)outcome.left.library, (long long)outcome.left.openexr,
                     outcome.result == LB_ERROR_OUT_OF_MEMORY ? "" : outcome.message.c_str());
     }
@@ -158,6 +160,7 @@ int main(int argc, char** argv) {
             if (scenario.name == argv[1]) return print_all(scenario, std::atoll(argv[2]));
         return 2;
     }
+    failing_memory::spare_dwa_blocks();
     std::vector<CMUnitTest> tests;
     for (Scenario& scenario : scenarios)
         if (scenario.sampled > 0) tests.push_back({scenario.name.c_str(), test_sample, nullptr, nullptr, &scenario});
