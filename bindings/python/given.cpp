@@ -82,10 +82,13 @@ std::string describe_value(const py::object& value) {
             return type_name(value) + " " + text;
         }
         return describe_array(value).value_or(type_name(value));
-    } catch (const std::exception&) {  // an int of too many digits, text with lone surrogates, a property that raises
-        PyErr_Clear();
-        return PyLong_CheckExact(value.ptr()) ? "an int of thousands of digits" : type_name(value);
+    } catch (const py::cast_error&) {  // text with lone surrogates
+    } catch (const py::error_already_set& error) {  // an int of too many digits, a property that raises
+        if (error.matches(PyExc_MemoryError)) {
+            throw;
+        }
     }
+    return PyLong_CheckExact(value.ptr()) ? "an int of thousands of digits" : type_name(value);
 }
 
 void Given::refuse_type(const std::string& expected) const {

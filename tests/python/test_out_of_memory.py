@@ -35,3 +35,21 @@ def test_a_map_without_memory_leaves_the_context_usable(
     assert raised.value.code == 6
     frame.render(scene)
     assert np.array_equal(frame.buffer("color"), rendered.buffer("color"))
+
+
+class Shape:
+    def __str__(self) -> str:
+        raise MemoryError
+
+
+class ArrayLike:
+    """Looks like an array, but there is no memory to describe it."""
+
+    dtype, ndim, shape = "float64", 1, Shape()
+
+
+def test_a_value_that_cannot_be_described_for_lack_of_memory_is_not_called_a_wrong_type(
+    context: lightband.Context,
+) -> None:
+    with pytest.raises(MemoryError):
+        context.frame(ArrayLike(), 4)  # type: ignore[arg-type]
