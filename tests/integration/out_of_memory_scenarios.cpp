@@ -268,6 +268,27 @@ Scenario loading(const char* name, int sampled, const std::string& path) {
     return scenario;
 }
 
+// A MERL file whose cells of the last five degrees of theta_d are unmeasured, and are filled when it is loaded.
+void write_merl(const std::string& path) {
+    constexpr int32_t cells[3] = {90, 90, 180}, measured = 85;
+    constexpr double value = 10, unmeasured = -1;
+    std::vector<double> values;
+    for (int row = 0; row < 3 * cells[0] * cells[1]; ++row)
+        values.insert(values.end(), size_t(cells[2]), row % cells[1] < measured ? value : unmeasured);
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(cells), sizeof cells);
+    file.write(reinterpret_cast<const char*>(values.data()), std::streamsize(values.size() * sizeof(double)));
+}
+
+Scenario loading_brdf(const std::string& path) {
+    const auto load = [path] { return lb_brdf_load(world.context, path.c_str(), &world.brdf); };
+    Scenario scenario = making("load_brdf", 1, load, albedo_of_brdf);
+    scenario.prepare = [path] {
+        if (!std::filesystem::exists(path)) write_merl(path);
+    };
+    return scenario;
+}
+
 // Everything that a scene and a frame are told. After a failure it goes on from there.
 lb_result compose() {
     lb_camera_desc camera = LB_CAMERA_DESC_INIT;
@@ -453,6 +474,7 @@ std::vector<Scenario> make_scenarios() {
         making("environment", 40, make_environment, map_of_environment),
         making("brdf", 40, make_brdf, albedo_of_brdf),
         making("brdf_table", 1, make_table, albedo_of_brdf),
+        loading_brdf(folder + "/grazing.binary"),
         bandwidth_of_brdf(),
         built_in("builtin_brdf", false),
         built_in("cached_brdf", true),
@@ -464,6 +486,10 @@ std::vector<Scenario> make_scenarios() {
         next_render("render_error", 20, {{"target_error", 0.1}}, {{"background", "environment"}}),
         next_render("render_accumulated", 8, {{"samples", 8}, {"accumulate", 2}}, {{"sampler", "combined"}}),
         next_render("render_reference", 20, {{"samples", 4}}, {{"method", "reference"}}),
+        about_picture("plan", 40, [] {
+            char text[4096];
+            return lb_frame_plan(world.frame, world.scene, text, sizeof text, nullptr);
+        }, picture),
         about_picture("explain", 40, [] {
             char text[4096];
             return lb_frame_explain(world.frame, text, sizeof text, nullptr);
