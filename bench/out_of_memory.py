@@ -6,10 +6,10 @@
 Each allocation fails twice: alone, and together with all that follow it in the call. In a scenario of more than 500
 allocations, those fail that are the first or the last of one place in the code. Writes out_of_memory.csv, after each
 scenario anew, with a row for each: how many calls had an allocation fail; how many of them returned
-LB_ERROR_OUT_OF_MEMORY, how many read a file a second time and succeeded, and how many returned something else; after how
-many the state differed from that before the call, or the repeated call gave another result; how many blocks of the
-library and of OpenEXR were left; how many calls ended the process. Fails where the library is at fault: OpenEXR 3.1 itself
-ends the process where it has no memory within a DWAA or DWAB block (lightband.h, lb_environment_load).
+LB_ERROR_OUT_OF_MEMORY, how many read a file a second time and succeeded, and how many returned something else; after
+how many the state differed from that before the call, or the repeated call gave another result; how many blocks of the
+library and of OpenEXR were left; how many calls ended the process. Fails where the library is at fault: OpenEXR 3.1
+itself ends the process where it has no memory within a DWAA or DWAB block (lightband.h, lb_environment_load).
 """
 from __future__ import annotations
 
@@ -81,7 +81,8 @@ def main() -> None:
     print(path.read_text())
     faults = ("other results", "not as before", "blocks left")
     broken = [row["scenario"] for row in rows
-              if any(row[fault] for fault in faults) or (row["processes ended"] and row["scenario"] not in ENDED_BY_OPENEXR)]
+              if any(row[fault] for fault in faults)
+              or (row["processes ended"] and row["scenario"] not in ENDED_BY_OPENEXR)]
     if broken:
         sys.exit("not as it should be: " + ", ".join(broken))
 

@@ -207,9 +207,9 @@ LB_API lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]);
  * What a reader changes in the values, the log callback hears, with its count: negative values that a lossy compression (B44, B44A,
  * DWAA, DWAB) or chroma at half resolution may have made of light, and negative components of colours outside the gamut of Rec. 709,
  * become 0.
- * Reading takes little more memory than the file and three floats a texel. (For each chunk of a DWAA or DWAB file, OpenEXR before 3.3
- * asks for buffers of 128 and 256 bytes and ends the process where it does not get one. Running out of memory anywhere else is
- * LB_ERROR_OUT_OF_MEMORY.)
+ * Reading takes little more memory than the file and three floats a texel. (For each chunk of a DWAA or DWAB file,
+ * OpenEXR before 3.3 asks for buffers of 128 and 256 bytes and ends the process where it does not get one. Running out
+ * of memory anywhere else is LB_ERROR_OUT_OF_MEMORY.)
  * LB_ERROR_FILE (also where path is no regular file: a folder, device, pipe or socket is not waited for), LB_ERROR_FORMAT (corrupt; no
  * colour or no such layer; chromaticities that span no colours; a texel that is negative, not finite or above 1e15: the message says
  * where), LB_ERROR_OUT_OF_MEMORY. */

@@ -44,17 +44,18 @@ bool ends_in(std::string_view words, std::string_view end) {
     return words.size() >= end.size() && words.substr(words.size() - end.size()) == end;
 }
 
-// OpenEXR reports that memory ran out by exceptions of its own. They end in the words of a former std::bad_alloc, or in those
-// of ScanLineInputFile.
+// OpenEXR reports that memory ran out by exceptions of its own. They end in the words of the std::bad_alloc that it caught,
+// or in those of its ScanLineInputFile.
 bool tells_of_memory(const std::exception& reason) {
-    return ends_in(reason.what(), std::bad_alloc().what()) || ends_in(reason.what(), "Failed to allocate memory for scanline buffers");
+    return ends_in(reason.what(), std::bad_alloc().what()) ||
+           ends_in(reason.what(), "Failed to allocate memory for scanline buffers");
 }
 
 }  // namespace
 
-// Where zlib gets no memory, OpenEXR says no more than that decompression failed, as of a damaged file. If memory is still
-// short right after that, read_window throws std::bad_alloc. If not, another thread has released some in the meantime, and
-// the second attempt succeeds; it fails only with a damaged file.
+// Where zlib gets no memory, OpenEXR says no more than that decompression failed, as of a damaged file. If memory is
+// still short right after that, read_window throws std::bad_alloc. If not, another thread has released some in the
+// meantime, and the second attempt succeeds: it fails only with a damaged file.
 RgbImage parse_exr(const std::vector<uint8_t>& bytes, const std::string& name, const std::string& layer) {
     for (bool again : {false, true}) {
         try {

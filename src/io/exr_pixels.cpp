@@ -47,8 +47,9 @@ void spread_grey(const ColourChannels& channels, std::vector<float>* rgb) {
     for (size_t i = 0; i < rgb->size(); i += 3) (*rgb)[i + 1] = (*rgb)[i + 2] = (*rgb)[i];
 }
 
-// Runs a call of OpenEXR that decodes pixels. If it fails and memory is short, throws std::bad_alloc instead: OpenEXR does
-// not say which of the two it was where zlib failed. Memory is tried here, because the callers free what they hold.
+// Runs a call of OpenEXR that decodes pixels. If it fails and memory is short, throws std::bad_alloc instead: where zlib
+// fails, OpenEXR does not say whether for lack of memory. An allocation is tried here, before the callers free what they
+// hold.
 template <class Call>
 void decode(const Call& call) {
     try {

@@ -22,8 +22,8 @@ void fail_after(int64_t granted, Failing failing);
 // Nothing fails any more. Whether an allocation has failed since fail_after.
 bool stop_failing();
 
-// From now on OpenEXR gets its blocks of 8 x 8 texels of DWAA and DWAB, and they are not counted: version 3.1 does not look
-// whether posix_memalign gave them, and writes to the null pointer.
+// From now on OpenEXR gets its blocks of 8 x 8 texels of DWAA and DWAB, and they are not counted: version 3.1 does not
+// look whether posix_memalign gave them, and writes to the null pointer.
 void spare_dwa_blocks();
 
 // Allocations since begin().

@@ -25,7 +25,8 @@ Bytes exr_pixels(const std::string& path) {
     for (auto channel = file.header().channels().begin(); channel != file.header().channels().end(); ++channel) {
         std::vector<float> values(width * height);
         Imf::FrameBuffer target;
-        target.insert(channel.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float), sizeof(float) * width));
+        target.insert(channel.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float),
+                                                 sizeof(float) * width));
         file.setFrameBuffer(target);
         file.readPixels(window.min.y, window.max.y);
         const auto* first = reinterpret_cast<const uint8_t*>(values.data());

@@ -23,6 +23,6 @@ std::string write_hdr(const std::string& path);
 // A MERL file whose cells of the last five degrees of theta_d are unmeasured: they are filled when it is loaded.
 void write_merl(const std::string& path);
 
-// What a file shows. The header of an OpenEXR file says how many milliseconds its render took: only its pixels count, of
-// which there are none where OpenEXR finds lines missing.
+// What a file shows. The header of an OpenEXR file says how many milliseconds its render took: only its pixels count,
+// of which there are none where OpenEXR finds lines missing.
 Bytes file_contents(const std::string& path);

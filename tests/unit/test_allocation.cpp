@@ -232,7 +232,8 @@ Bytes two_part_exr() {
     for (int part = 0; part < 2; ++part) {
         headers[part].setName(part == 0 ? "depth" : "colour");
         headers[part].setType(Imf::SCANLINEIMAGE);
-        for (int i = part; i < (part == 0 ? 1 : 4); ++i) headers[part].channels().insert(names[i], Imf::Channel(Imf::FLOAT));
+        for (int i = part; i < (part == 0 ? 1 : 4); ++i)
+            headers[part].channels().insert(names[i], Imf::Channel(Imf::FLOAT));
     }
     Imf::StdOSStream stream;
     {
@@ -259,7 +260,7 @@ void check_reading(const Bytes& bytes) {
     };
     assert_true(fail_each_allocation(Leaks::inside_openexr, read) >= 10);
 #if !defined(__SANITIZE_ADDRESS__)
-    // Of the bytes that may be held at a time, too few at first. What is freed after a failure can be had again: a second
+    // Few bytes may be held at a time, then more and more. What is freed after a failure can be had again: a second
     // attempt fails where the first one did.
     constexpr int64_t step = 1024;
     int64_t limit = 0;
