@@ -12,6 +12,7 @@
 #include "frame/error_control.h"
 #include "passes/gbuffer.h"
 #include "passes/upsample.h"
+#include "picture/constants.h"
 
 namespace lightband {
 namespace {
@@ -66,6 +67,9 @@ Run::Run(gl::Device& device, const Scene& scene, const Settings& settings, uint3
     : state_{device, scene, settings, settings, Meter(progress), scene.slots(), passes::slot_table(device.gl(), scene.slots()), throughput,
              std::make_shared<FrameResult>(device.gl(), settings, width, height,
                                            Plan(settings, plan_input(scene, scene.slots(), width, height)))} {
+#if defined(LIGHTBAND_STUDY)
+    constants::choose_studied();
+#endif
     next().stats.width = width;
     next().stats.height = height;
     next().eye = scene.camera->eye;

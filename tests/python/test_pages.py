@@ -25,6 +25,6 @@ def test_every_pass_is_explained(context, scene):
         assert f"| `{line.split()[0]}` |" in PAGE
 
 
-@pytest.mark.parametrize("script", ["draw_frame.py", "write_settings.py"])
+@pytest.mark.parametrize("script", ["draw_frame.py", "write_settings.py", "write_constants.py"])
 def test_what_a_script_writes_is_up_to_date(script):
     subprocess.run([sys.executable, str(ROOT / "scripts" / script), "--check"], check=True)

@@ -1,0 +1,59 @@
+"""Writes docs/error-control-constants.md from src/picture/constants.h and, where it is there, docs/measurements/constants.csv.
+
+    python scripts/write_constants.py            # writes the page
+    python scripts/write_constants.py --check    # fails where the page is not what would be written
+"""
+from __future__ import annotations
+
+import argparse
+import csv
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+SOURCE, STUDY, TARGET = ROOT / "src/picture/constants.h", ROOT / "docs/measurements/constants.csv", ROOT / "docs/error-control-constants.md"
+HEAD = """# Constants of error control
+
+Written by `scripts/write_constants.py` from `src/picture/constants.h`. The last two columns say what happens when a constant is halved and
+when it is doubled: time at equal error over that with the constant as it is, where 5 %, 2 % and 100 ms are asked for (`bench/constants.py`).
+"""
+ENTRY = re.compile(r"((?:^// [^\n]*\n)+)^LIGHTBAND_CONSTANT\((\w+), ([^)]+)\);$|^// ---- ([^-]+) ----$", re.M)
+
+
+def measured() -> dict[str, dict[str, str]]:
+    if not STUDY.exists():
+        return {}
+    lines = [line for line in STUDY.read_text().splitlines() if not line.startswith("#")]
+    return {row["constant"]: row for row in csv.DictReader(lines)}
+
+
+def effect(row: dict[str, str] | None, factor: str) -> str:
+    return " / ".join(f"{float(row[f'{what} {factor}']):.2f}" for what in ("5 %", "2 %", "100 ms")) if row else "not measured"
+
+
+def page() -> str:
+    study, parts = measured(), [HEAD]
+    for comment, name, value, title in ENTRY.findall(SOURCE.read_text()):
+        if title:
+            parts.append(f"\n## {title}\n| name | value | unit | what it is, and its origin | halved | doubled |\n|---|---|---|---|---|---|\n")
+            continue
+        words = " ".join(line[3:] for line in comment.splitlines())
+        unit, text = re.fullmatch(r"\[([^]]+)\] (.*)", words).groups()
+        row = study.get(name)
+        parts.append(f"| `{name}` | {value} | {unit} | {text} | {effect(row, '0.5')} | {effect(row, '2')} |\n")
+    return "".join(parts)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    if not arguments.check:
+        TARGET.write_text(page())
+    elif TARGET.read_text() != page():
+        sys.exit(f"{TARGET} is out of date: run {Path(__file__).name}")
+
+
+if __name__ == "__main__":
+    main()
