@@ -1,4 +1,4 @@
-// How much a shaded pixel takes from its neighbours.
+// The weight of the interpolated value in what a shaded pixel displays.
 #include "frame/combine.h"
 #include "numeric_testing.h"
 #include "picture/decision.h"
@@ -15,18 +15,19 @@ double normal(Random& random) {  // Box and Muller
     return std::sqrt(-2 * std::log(1 - random.uniform())) * std::cos(2 * pi * random.uniform());
 }
 
-// A grey picture of 64 x 64 pixels, all shaded and all compared with interpolation. Own values have the standard deviation `own`, interpolated
-// ones `other` and the error `bias` besides; spreads tell of `told` of either noise.
+// A grey picture of 64 x 64 pixels, all of them shaded and compared with the interpolated value. Own values have the
+// standard deviation `own_noise`, interpolated ones `other_noise` and the error `bias_...` besides. Spreads contain the
+// fraction `seen` of either noise.
 struct Picture {
     RoundPixels pixels;
     std::vector<double> own, interpolated;  // errors
 
-    Picture(Random& random, double own_noise, double other_noise, double bias_finest, double bias_coarser, double told = 1) {
+    Picture(Random& random, double own_noise, double other_noise, double bias_finest, double bias_coarser, double seen = 1) {
         for (uint32_t i = 0; i < side * side; ++i) {
             const double bias = lattice_level(i % side, i / side, 6) == 0 ? bias_finest : bias_coarser;
             own.push_back(own_noise * normal(random));
             interpolated.push_back(other_noise * normal(random) + bias * (random.uniform() < 0.5 ? -1 : 1));
-            const double spread = told * own_noise * normal(random), other = told * other_noise * normal(random);
+            const double spread = seen * own_noise * normal(random), other = seen * other_noise * normal(random);
             const float value = float(radiance + own[i]);
             pixels.radiance.insert(pixels.radiance.end(), {value, value, value, value * value + float(15 * own_noise * own_noise)});
             pixels.spread.insert(pixels.spread.end(), {float(spread), float(interpolated[i] - own[i]), float(other - spread),
@@ -50,28 +51,29 @@ double mean_part(const std::vector<uint8_t>& parts) {
     return sum / count;
 }
 
-// A tile's 192 pixels know a mean square to sqrt(2 / 192) = 10 %; a part is a ratio of two of these, and the mean of 16 tiles is known to
-// 0.04. Steps of 1 / 255 are within that.
-void the_part_is_the_one_that_errs_least(void**) {
+// A tile's 192 pixels know a mean square to sqrt(2 / 192) = 10 %; a part is a ratio of two of these, and the mean of 16
+// tiles is known to 0.04. Steps of 1 / 255 are within that.
+void the_weight_is_the_one_with_least_error(void**) {
     Random random(21);
     check_close("noise alone", mean_part(Picture(random, 0.02, 0.01, 0, 0).parts()), 0.8, 0.04);
     check_close("interpolation as bad", mean_part(Picture(random, 0.02, 0.01, 0.03, 0.12).parts()), 4 / (4 + 1 + 9.0), 0.04);
     check_close("an edge", mean_part(Picture(random, 0.02, 0.01, 0.4, 0.6).parts()), 0, 0.01);
 }
 
-// Of four frames a fourth of the noise is left, and all of what interpolation errs.
+// The mean of four frames has a quarter of the squared noise, and all of the error of interpolation.
 void a_mean_of_frames_has_less_noise(void**) {
     Random random(22);
     check_close("part", mean_part(Picture(random, 0.02, 0.01, 0.03, 0.12).parts(4)), 1 / (1 + 0.25 + 9.0), 0.04);
 }
 
-// Spreads tell of a quarter of the variance: without the coarser lattice, 4 / (4 + 1) of a quarter would be left of the part.
+// Spreads contain a quarter of the variance: without the coarser lattice, only a quarter of the weight 4 / (4 + 1)
+// would be left.
 void noise_that_spreads_miss_is_not_taken_for_an_error_of_interpolation(void**) {
     Random random(23);
     check_at_most("what is missing", 0.8 - mean_part(Picture(random, 0.02, 0.01, 0, 0, 0.5).parts()), 0.1);
 }
 
-// Lattice points are what others are interpolated from: their own values stay.
+// Other pixels are interpolated from lattice points, so their own values stay.
 void lattice_points_keep_their_values(void**) {
     Random random(24);
     const std::vector<uint8_t> parts = Picture(random, 0.02, 0.01, 0, 0).parts();
@@ -79,7 +81,7 @@ void lattice_points_keep_their_values(void**) {
         if (!is_finest(i)) assert_int_equal(parts[i], 0);
 }
 
-void a_pixel_does_not_choose_its_own_part(void**) {
+void a_pixels_own_noise_does_not_change_its_weight(void**) {
     Random random(25);
     Picture picture(random, 0.02, 0.01, 0.02, 0.08);
     const size_t at = 33 * side + 17;
@@ -93,9 +95,9 @@ void a_pixel_does_not_choose_its_own_part(void**) {
     assert_int_equal(picture.parts()[at], 0);
 }
 
-// The estimate is of what is shown: over 3,072 pixels a mean square is known to sqrt(2 / 3072) = 2.6 %, so two of them agree within four
-// standard errors of their difference, 15 %.
-void the_estimate_is_of_what_is_shown(void**) {
+// The estimate is of what is displayed: over 3,072 pixels a mean square is known to sqrt(2 / 3072) = 2.6 %, so two of
+// them agree within four standard errors of their difference, 15 %.
+void the_estimate_is_of_what_is_displayed(void**) {
     Random random(26);
     for (const double bias : {0.0, 0.03}) {
         Picture picture(random, 0.02, 0.01, bias, 4 * bias);
@@ -116,12 +118,12 @@ void the_estimate_is_of_what_is_shown(void**) {
 int main() {
     using namespace lightband;
     const CMUnitTest tests[] = {
-        cmocka_unit_test(the_part_is_the_one_that_errs_least),
+        cmocka_unit_test(the_weight_is_the_one_with_least_error),
         cmocka_unit_test(a_mean_of_frames_has_less_noise),
         cmocka_unit_test(noise_that_spreads_miss_is_not_taken_for_an_error_of_interpolation),
         cmocka_unit_test(lattice_points_keep_their_values),
-        cmocka_unit_test(a_pixel_does_not_choose_its_own_part),
-        cmocka_unit_test(the_estimate_is_of_what_is_shown),
+        cmocka_unit_test(a_pixels_own_noise_does_not_change_its_weight),
+        cmocka_unit_test(the_estimate_is_of_what_is_displayed),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

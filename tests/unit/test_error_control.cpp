@@ -1,4 +1,4 @@
-// Error control: which rounds a frame takes, and what each draws.
+// Error control: how many rounds a frame takes, and how many samples each round takes of which pixels.
 #include "frame/error_control.h"
 #include "frame/resampling.h"
 #include "numeric_testing.h"
@@ -29,12 +29,13 @@ void a_budget_reaches_the_noise_asked_with_the_fewest_samples(void**) {
         for (uint32_t& samples : fewer) samples = std::max(least_samples, uint32_t(0.9 * samples));
         if (budget[36] > least_samples) assert_true(predicted_noise(histogram, fewer, Allocation::least_error) > noise);
     }
-    // Where the least samples do, every pixel gets them; bins above all pixels' have more, for rounds that find some of them worse.
+    // Where the least samples do, every pixel gets them; bins above all pixels' have more, for rounds that find some of
+    // them worse.
     const Budget least = plan_noise(histogram, 1e9, 1 << 20, Allocation::least_error);
     for (uint32_t bin = 0; bin <= 36; ++bin) assert_int_equal(least[bin], least_samples);
     for (uint32_t bin = 36 + bins_per_octave; bin <= 90; ++bin)
         check_close("samples an octave up", least[bin], 2.0 * least[bin - bins_per_octave], 1.5);  // both rounded
-    // What cannot be reached is approached as far as the most samples let.
+    // Noise that cannot be reached gets the maximum number of samples, and no more.
     for (uint32_t samples : plan_noise(histogram, 0, 128, Allocation::least_error)) assert_true(samples <= 128);
 }
 
@@ -62,8 +63,9 @@ void rounds_stop_where_the_error_is_reached(void**) {
     assert_false(control.needs_another_round(estimate_of(0.03 * 0.03, 0.02 * 0.02), {}));
 }
 
-// The error is reached; but where half of it is one pixel that one sample made, that is only how it looks.
-void noise_of_one_sample_is_not_believed(void**) {
+// The estimate is below the target error, but half of it is one pixel that one sample dominates, so that it is
+// uncertain.
+void uncertain_noise_takes_another_round(void**) {
     const Settings settings = asking("target_error", 0.05);
     ErrorControl control(settings, {1520, 1, 1}, 2, {}, 0);
     control.plan(some_histogram(), 0);
@@ -86,12 +88,12 @@ void noise_asks_for_samples_and_interpolation_for_levels(void**) {
     assert_true(control.plan_further({}, Histogram(budget_bins), 0) == first);
     assert_true(control.needs_another_round(estimate_of(0.02 * 0.02, 0.1 * 0.1), {}));
     assert_true(control.scales().of[0] > scale);
-    assert_true(control.scales().of[1] == scale);  // where no witness saw any error
+    assert_true(control.scales().of[1] == scale);  // where no validation pixel has an error
 }
 
-// After five rounds whose interpolation errs too much, pixels are shaded instead; not where noise is to blame, a user chose the scale, or a
-// time may not last.
-void what_no_levels_are_found_for_is_not_interpolated(void**) {
+// After five rounds with too large an error of interpolation, all pixels are shaded instead. Not so where the error is
+// noise, where the user chose the scale, or where a time budget may not suffice.
+void interpolation_is_given_up_where_no_levels_suffice(void**) {
     const struct {
         double interpolation;
         const char* also;
@@ -115,10 +117,11 @@ void what_no_levels_are_found_for_is_not_interpolated(void**) {
     }
 }
 
-// Few witnesses may see an error by chance: while there is noise to blame, a tile's are not believed alone.
-void a_single_witness_is_doubted_while_there_is_noise(void**) {
+// A few validation pixels may differ by chance. While noise is large, one of them alone does not refine its tile's
+// levels.
+void one_validation_pixel_does_not_refine_a_tile_under_noise(void**) {
     const Settings settings = asking("target_error", 0.05);
-    const double allowed = 0.7 * 0.04 * 0.04;  // noise, as Control shares it
+    const double allowed = 0.7 * 0.04 * 0.04;  // noise, as ErrorControl divides the error
     for (const bool noisy : {true, false}) {
         ErrorControl control(settings, {1520, 1, 1}, 2, {}, 0);
         control.plan(some_histogram(), 0);
@@ -153,38 +156,41 @@ Budget sixty_four_at_share_one() {
     return budget;
 }
 
-void what_varies_most_is_drawn_anew(void**) {
+void pixels_that_vary_most_are_resampled(void**) {
     Random random(19);
     const RoundPixels pixels = unequal(random, 10000, 64);
     const Budget budget = sixty_four_at_share_one();
     const auto varies = [&](size_t i) { return pixels.radiance[4 * i + 3] > 5; };
-    // Noisy pixels are all alike: twice the samples leave 0.48 at least. Quiet ones are worth round_samples below 0.3.
+    // Noisy pixels are all alike: twice the samples leave at least 0.48 of the noise. Resampling the quiet ones pays
+    // only below 0.3.
     for (const double part : {0.45, 0.4, 0.35}) {
         const Resampling next = plan_resampling(pixels, {}, 2, Allocation::least_error, budget, part);
-        double before = 0, after = 0, drawn = 0, kept = 0;
+        double before = 0, after = 0, resampled = 0, kept = 0;
         for (size_t i = 0; i < 10000; ++i) {
             const double more = budget[next.bins[i]] / 64.0, noise = varies(i) ? 4 : 0.04;
-            const bool anew = more >= least_resampling_factor;
-            assert_true(varies(i) || !anew);
-            assert_true(anew || next.bins[i] == 0);  // listed apart
+            const bool again = more >= least_resampling_factor;
+            assert_true(varies(i) || !again);
+            assert_true(again || next.bins[i] == 0);  // in a list of their own
             before += noise;
-            after += anew ? noise * std::pow(more, -constants::stratified_gain) : noise;
-            (anew ? drawn : kept) += anew ? budget[next.bins[i]] : 64;
+            after += again ? noise * std::pow(more, -constants::stratified_gain) : noise;
+            (again ? resampled : kept) += again ? budget[next.bins[i]] : 64;
         }
-        // Pixels move to whole bins, a quarter of an octave apart, and of 64 samples a fifth of the variance is taken from the mean of all:
-        // of the quiet pixels' 0.04 that makes 0.12, which is planned to be left of them, of 0.44 of all.
-        check_at_most("noise left over what was asked for", after / before / part, 1.25);
-        check_at_most("what was asked for less what quiet pixels seem to leave", part - 0.9 * 0.12 / 0.44, 1.25 * after / before);
-        // Noise of all pixels would be lessened so by samples of all.
-        check_at_most("samples over those of drawing all anew", drawn, 0.5 * 10000 * 64 * std::pow(part, -1 / constants::stratified_gain));
+        // Pixels move to whole bins, a quarter of an octave apart. At 64 samples a fifth of a pixel's variance is taken
+        // from the mean of all pixels, which makes 0.12 of the quiet pixels' 0.04. That is planned to be left of them,
+        // of 0.44 of all.
+        check_at_most("noise left over the part that was asked for", after / before / part, 1.25);
+        check_at_most("the part asked for less what quiet pixels are planned to leave", part - 0.9 * 0.12 / 0.44, 1.25 * after / before);
+        // Resampling all pixels would need this many samples for the same noise.
+        check_at_most("samples over those of resampling all", resampled, 0.5 * 10000 * 64 * std::pow(part, -1 / constants::stratified_gain));
         const RoundSamples all = round_samples(next.sampled, Histogram(budget_bins), budget);
-        check_close("samples", all.samples, drawn, 0);
-        check_close("growth", next.growth, (drawn + kept) / (64 * 10000), 1e-12);
+        check_close("samples", all.samples, resampled, 0);
+        check_close("growth", next.growth, (resampled + kept) / (64 * 10000), 1e-12);
     }
 }
 
-// A budget's rounding does not keep back the one pixel that is worth it: twice 426.55 samples are 853, twice 427 are 854.
-void one_pixel_that_errs_most_is_drawn_anew(void**) {
+// The rounding of the budget does not prevent the one pixel that needs it from being resampled: twice 426.55 samples
+// are 853, twice 427 are 854.
+void the_pixel_that_errs_most_is_resampled(void**) {
     Random random(27);
     RoundPixels pixels = unequal(random, 10000, 427);
     const size_t worst = 5000;
@@ -211,8 +217,8 @@ void further_rounds_within_a_cost_spend_it(void**) {
     }
 }
 
-// A pixel that others are interpolated from counts as often as they.
-void lattice_points_are_drawn_anew_first(void**) {
+// A pixel counts as often as others are interpolated from it.
+void lattice_points_are_resampled_first(void**) {
     Random random(21);
     RoundPixels pixels = unequal(random, 10000, 64);
     for (size_t i = 0; i < 10000; ++i) pixels.radiance[4 * i + 3] = 4.04f;
@@ -227,7 +233,8 @@ void lattice_points_are_drawn_anew_first(void**) {
 
 // ---- First rounds -----------------------------------------------------------------------------------
 
-// 1000 pixels in a second, at 1000 samples a millisecond: some 900 of each, or 2.2 times as many of so few that each has them.
+// 1000 pixels in a second at 1000 samples a millisecond have some 900 samples each. With interpolation each shaded
+// pixel needs 2.2 times as many, which suffices where there are few of them.
 void pixels_are_interpolated_in_time_where_it_pays(void**) {
     const Settings settings = asking("time_budget", 1000);
     Throughput throughput;
@@ -241,19 +248,20 @@ void pixels_are_interpolated_in_time_where_it_pays(void**) {
     }
 }
 
-Forecast probed(double error) {
+Forecast with_pilot_error(double error) {
     Forecast forecast{1000, 1, 1};
     forecast.pilot_error = error;
     forecast.pilot_samples = 64;
     return forecast;
 }
 
-// By a probe of as much noise as is allowed, at 64 samples: with interpolation's share of the error, and what a first round may miss, all
-// take 2.2 times the samples, and 30 more of each pixel; so shading all pays from (64 + 30) / (2.2 * 64 + 30) = 0.55 on.
+// Pilot samples, 64 a pixel, have as much noise as is allowed. With interpolation's share of the error and the margin
+// of a first round, each shaded pixel takes 2.2 times the samples, and has a fixed cost of 30 more. Shading all pixels
+// pays where more than (64 + 30) / (2.2 * 64 + 30) = 0.55 of them would be shaded.
 void pixels_are_interpolated_where_it_pays(void**) {
     const Settings settings = asking("target_error", 0.02);
     for (const uint64_t pixels : {300, 800}) {
-        ErrorControl control(settings, probed(std::pow(0.8 * 0.02, 2)), 2, {}, 0);
+        ErrorControl control(settings, with_pilot_error(std::pow(0.8 * 0.02, 2)), 2, {}, 0);
         Histogram histogram(budget_bins);
         histogram[share_one] = pixels;
         assert_true(control.interpolates());
@@ -262,12 +270,13 @@ void pixels_are_interpolated_where_it_pays(void**) {
     }
 }
 
-// Pixels that are all alike get what takes the probe's error to what is allowed, less a margin; whatever their share says of it.
-void a_probe_plans_the_first_round(void**) {
+// Equal pixels get the samples that reduce the pilot samples' error to what is allowed, less a margin, whatever their
+// bin is.
+void pilot_samples_plan_the_first_round(void**) {
     const Settings settings = asking("target_error", 0.02);
     const double planned = 0.55 * 0.7 * std::pow(0.8 * 0.02, 2);
     for (const uint32_t bin : {3u, share_one, budget_bins - 1}) {
-        ErrorControl control(settings, probed(1e-3), 2, {}, 0);
+        ErrorControl control(settings, with_pilot_error(1e-3), 2, {}, 0);
         Histogram histogram(budget_bins);
         histogram[bin] = 1000;
         // Samples are whole numbers: of some 300, a half is a six-hundredth.
@@ -275,24 +284,26 @@ void a_probe_plans_the_first_round(void**) {
     }
 }
 
-// Whichever comes first: of an error that shading all 1000 pixels reaches in 0.3 s, and one that they reach in 4, a second lasts for one.
-void an_error_is_kept_where_there_is_time_for_it(void**) {
+// Whichever comes first governs: a second suffices for the target error that shading all 1000 pixels reaches in 0.3 s,
+// but not for the one that takes 4 s.
+void a_target_error_governs_where_there_is_time_for_it(void**) {
     Throughput throughput;
     throughput.samples_per_millisecond = 1000;
-    for (const auto& [target, kept] : {std::pair(0.01, true), {0.002, false}}) {
+    for (const auto& [target, governs] : {std::pair(0.01, true), {0.002, false}}) {
         Settings settings = asking("time_budget", 1000);
         settings.set_number("target_error", target);
-        ErrorControl control(settings, probed(std::pow(0.8 * 0.01, 2) * std::pow(4, 1.2)), 2, throughput, 0);
+        ErrorControl control(settings, with_pilot_error(std::pow(0.8 * 0.01, 2) * std::pow(4, 1.2)), 2, throughput, 0);
         Histogram histogram(budget_bins);
         histogram[share_one] = 1000;
         control.replan(histogram, 0);
         const double each = control.plan(histogram, 0)[share_one];
-        // 64 samples leave 4^1.2 times the noise allowed of 256; or the first of two rounds has 0.15 s for all.
-        check_close("samples of each", each, kept ? 256 : 0.15 * 1000 - constants::pixel_samples, 1);
+        // 64 samples leave 4^1.2 times the noise that is allowed, so 256 are needed; or the first of two rounds has
+        // 0.15 s for all pixels.
+        check_close("samples of each", each, governs ? 256 : 0.15 * 1000 - constants::pixel_samples, 1);
     }
 }
 
-void a_time_is_shared_between_two_rounds(void**) {
+void a_time_budget_is_divided_between_two_rounds(void**) {
     const Settings settings = asking("time_budget", 1000);
     Throughput throughput;
     throughput.samples_per_millisecond = 1000;
@@ -305,22 +316,22 @@ void a_time_is_shared_between_two_rounds(void**) {
         return sum;
     };
     const double first = samples(control.plan(histogram, 10));
-    // What 1,520 pixels cost before their first sample is taken off the time.
+    // The fixed cost of 1,520 pixels is subtracted from the time.
     const double before_first = 1520 * constants::pixel_samples;
     check_close("first round, milliseconds", (first + before_first) / 1000, 0.15 * (1000 - 10 - 12), 2);
     RoundCost cost;
     cost.samples = uint64_t(first);
     cost.pixels = 1520;
-    cost.shading_milliseconds = 2 * (first + before_first) / 1000;  // half as fast as it was thought to be
+    cost.shading_milliseconds = 2 * (first + before_first) / 1000;  // half as fast as the throughput model says
     cost.other_milliseconds = 20;
     cost.elapsed_milliseconds = 10 + cost.shading_milliseconds + 20;
     assert_true(control.needs_another_round(estimate_of(0.01, 0), cost));
-    const std::vector<SampledGroup> drawn = {{30, 16, 1000}, {33, 16, 500}, {36, 16, 20}};
-    const Budget second = control.plan_further(drawn, Histogram(budget_bins), cost.elapsed_milliseconds);
+    const std::vector<SampledGroup> sampled = {{30, 16, 1000}, {33, 16, 500}, {36, 16, 20}};
+    const Budget second = control.plan_further(sampled, Histogram(budget_bins), cost.elapsed_milliseconds);
     check_close("second round, milliseconds", (samples(second) + before_first) / 500, 1000 - cost.elapsed_milliseconds - 12, 4);
     cost.elapsed_milliseconds = 990;
     assert_false(control.needs_another_round(estimate_of(0.01, 0), cost));
-    // A round that made programs says nothing of those that will find them.
+    // A round in which shaders were compiled does not change the throughput of later rounds, which find them compiled.
     const double before = control.throughput().samples_per_millisecond;
     cost.made_programs = true;
     cost.shading_milliseconds *= 10;
@@ -337,18 +348,18 @@ int main() {
         cmocka_unit_test(a_budget_reaches_the_noise_asked_with_the_fewest_samples),
         cmocka_unit_test(rounds_stop_where_the_error_is_reached),
         cmocka_unit_test(noise_asks_for_samples_and_interpolation_for_levels),
-        cmocka_unit_test(what_no_levels_are_found_for_is_not_interpolated),
-        cmocka_unit_test(a_single_witness_is_doubted_while_there_is_noise),
-        cmocka_unit_test(noise_of_one_sample_is_not_believed),
-        cmocka_unit_test(one_pixel_that_errs_most_is_drawn_anew),
-        cmocka_unit_test(what_varies_most_is_drawn_anew),
+        cmocka_unit_test(interpolation_is_given_up_where_no_levels_suffice),
+        cmocka_unit_test(one_validation_pixel_does_not_refine_a_tile_under_noise),
+        cmocka_unit_test(uncertain_noise_takes_another_round),
+        cmocka_unit_test(the_pixel_that_errs_most_is_resampled),
+        cmocka_unit_test(pixels_that_vary_most_are_resampled),
         cmocka_unit_test(further_rounds_within_a_cost_spend_it),
-        cmocka_unit_test(lattice_points_are_drawn_anew_first),
+        cmocka_unit_test(lattice_points_are_resampled_first),
         cmocka_unit_test(pixels_are_interpolated_where_it_pays),
         cmocka_unit_test(pixels_are_interpolated_in_time_where_it_pays),
-        cmocka_unit_test(a_probe_plans_the_first_round),
-        cmocka_unit_test(an_error_is_kept_where_there_is_time_for_it),
-        cmocka_unit_test(a_time_is_shared_between_two_rounds),
+        cmocka_unit_test(pilot_samples_plan_the_first_round),
+        cmocka_unit_test(a_target_error_governs_where_there_is_time_for_it),
+        cmocka_unit_test(a_time_budget_is_divided_between_two_rounds),
     };
     return cmocka_run_group_tests_name("control", tests, nullptr, nullptr);
 }

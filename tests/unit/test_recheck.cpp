@@ -1,5 +1,5 @@
-// The recheck of a light cut by samples without bias: it sees light that is lost alike with few samples and many, and is not misled by
-// noise, nor by a cut that converges.
+// The recheck of a light cut by unbiased samples: it detects light that the cut loses with any number of samples, and
+// is misled neither by noise nor by a cut that converges.
 #include "frame/control_set.h"
 #include "frame/recheck.h"
 #include "numeric_testing.h"
@@ -15,8 +15,8 @@ constexpr double harmless = 0.005;
 
 double normal(Random* random) { return std::sqrt(-2 * std::log(1 - random->uniform())) * std::cos(2 * pi * random->uniform()); }
 
-// Pixels of a cut that errs by `few` with 64 samples, half of it alike in all of them, and loses a part of the light for ever; without
-// bias, their two replicates differ by twice `noise`.
+// Pixels of a cut that errs by `few` with 64 samples (half of the squared error is common to all pixels) and loses the
+// fraction `lost` of the light with any number of samples. Unbiased samples have the standard deviation `noise`.
 Recheck of_pixels(uint64_t seed, double few, double lost, double noise) {
     Random random(seed);
     std::vector<RecheckedPixel> pixels;
@@ -29,25 +29,27 @@ Recheck of_pixels(uint64_t seed, double few, double lost, double noise) {
     return recheck(pixels, samples);
 }
 
-// Differences beyond four standard errors come by chance once in 16,000 times; of 71 degrees of freedom, once in 6,000.
-void a_cut_that_converges_is_left_alone(void**) {
+// A difference of more than four standard errors occurs by chance once in 16,000 times; with 71 degrees of freedom,
+// once in 6,000.
+void a_cut_that_converges_is_kept(void**) {
     for (uint64_t seed = 0; seed < 200; ++seed) assert_false(of_pixels(seed, 0.04, 0, 0.04).contradicts(harmless));
 }
 
-// The extrapolated cut has 2.2 times its error with many samples (0.435 of that with few), so that a mean of 72 is known to 0.007.
-void light_that_is_lost_for_ever_is_seen(void**) {
+// The extrapolated cut has 2.2 times its error with many samples (0.435 of that with few), so that a mean of 72 is
+// known to 0.007.
+void light_lost_at_any_number_of_samples_is_detected(void**) {
     for (uint64_t seed = 0; seed < 200; ++seed) assert_true(of_pixels(seed, 0.04, 0.06, 0.04).contradicts(harmless));
     for (uint64_t seed = 0; seed < 200; ++seed) assert_true(of_pixels(seed, 0.04, -0.06, 0.04).contradicts(harmless));
 }
 
-void what_the_error_hides_is_harmless(void**) {
+void a_difference_below_the_frames_error_is_harmless(void**) {
     const Recheck seen = of_pixels(1, 0.001, 0.02, 0.01);
     assert_true(seen.contradicts(harmless));
     assert_false(seen.contradicts(0.03));
 }
 
-// To either side, so that the mean tells nothing: a cut that errs more than as many samples without bias would.
-void a_cut_that_is_worse_is_given_up(void**) {
+// A cut that errs to either side, so that its mean is right, but by more than as many unbiased samples would.
+void a_cut_with_more_error_than_unbiased_samples_is_given_up(void**) {
     const auto scattered = [](double error, double noise) {
         Random random(5);
         std::vector<RecheckedPixel> pixels;
@@ -57,13 +59,13 @@ void a_cut_that_is_worse_is_given_up(void**) {
         }
         return recheck(pixels, samples);
     };
-    // Without bias, 256 samples err by 0.02 * sqrt(735 / 256 / 2) = 0.024.
+    // 256 unbiased samples err by 0.02 * sqrt(735 / 256 / 2) = 0.024.
     assert_true(scattered(0.1, 0.02).contradicts(harmless));
     assert_false(scattered(0.02, 0.02).contradicts(harmless));
 }
 
-// One pixel's replicates may agree by chance.
-void a_single_pixel_knows_its_error_badly(void**) {
+// One pixel's replicates may agree by chance, so that its spread alone is no standard error.
+void the_standard_error_of_one_pixel_is_not_its_spread(void**) {
     assert_false(recheck({{1.02, 1.02, 1, 0, 0.01}}, samples).contradicts(harmless));
     assert_true(recheck({{1.05, 1.05, 1, 0, 0.01}}, samples).contradicts(harmless));
 }
@@ -76,11 +78,11 @@ void no_pixels_contradict_nothing(void**) { assert_false(recheck({}, samples).co
 int main() {
     using namespace lightband;
     const CMUnitTest tests[] = {
-        cmocka_unit_test(a_cut_that_converges_is_left_alone),
-        cmocka_unit_test(light_that_is_lost_for_ever_is_seen),
-        cmocka_unit_test(what_the_error_hides_is_harmless),
-        cmocka_unit_test(a_cut_that_is_worse_is_given_up),
-        cmocka_unit_test(a_single_pixel_knows_its_error_badly),
+        cmocka_unit_test(a_cut_that_converges_is_kept),
+        cmocka_unit_test(light_lost_at_any_number_of_samples_is_detected),
+        cmocka_unit_test(a_difference_below_the_frames_error_is_harmless),
+        cmocka_unit_test(a_cut_with_more_error_than_unbiased_samples_is_given_up),
+        cmocka_unit_test(the_standard_error_of_one_pixel_is_not_its_spread),
         cmocka_unit_test(no_pixels_contradict_nothing),
     };
     return cmocka_run_group_tests_name("recheck", tests, nullptr, nullptr);
