@@ -1,4 +1,4 @@
-"""Asking for an error or a time: what was asked, what is answered, and what is true."""
+"""A target error or a time budget: what was asked for, what the frame estimates, and what its error is."""
 
 import numpy as np
 import pytest
@@ -22,32 +22,32 @@ def subject(request, shared, blob_references):
 
 
 @pytest.mark.parametrize("asked", [0.1, 0.03, 0.01])
-def test_what_is_asked_is_reached_and_no_more(shared, subject, asked):
+def test_the_target_error_is_reached_and_not_far_exceeded(shared, subject, asked):
     brdf, references = subject
     frames = [render_blob(shared, brdf, target_error=asked, seed=seed) for seed in (1, 2, 3)]
     got = np.array([true_error(frame, *references) for frame in frames])
-    # What is promised: at most 1.5 times what was asked in any frame, at least half of it in the median (a frame of few pixels
-    # cannot stop in the middle of a round, hence a third; and one that has the fewest samples everywhere cannot have fewer).
+    # Of any frame at most 1.5 times the target error, and of the median at least a third: a frame of few pixels cannot
+    # stop in the middle of a round, and one that has the fewest samples everywhere cannot have fewer.
     assert got.max() < 1.5 * asked
     fewest = all(np.percentile(frame.sample_count[frame.sample_count > 0], 90) <= 16 for frame in frames)
     assert np.median(got) > asked / 3 or fewest
     for frame, true in zip(frames, got):
         assert frame.stats.error <= asked
-        # The estimate of 3,000 pixels and some 200 witnesses.
+        # The estimate is of 3,000 pixels and some 200 validation pixels.
         assert frame.stats.error / 1.5 < true < 1.5 * frame.stats.error
 
 
 @pytest.mark.parametrize("settings", [{"samples": 16}, {"samples": 256, "sampler": "combined"}, {"method": "reference", "samples": 64},
                                       {"samples": 64, "coarsest_level": 0}, {"samples": 16, "accumulate": 8},
                                       {"sampler": "brdf", "samples": 64}])
-def test_every_frame_knows_its_error(shared, subject, settings):
+def test_every_frame_estimates_its_error(shared, subject, settings):
     brdf, references = subject
     frame = render_blob(shared, brdf, seed=5, **settings)
     assert frame.stats.error / 1.6 < true_error(frame, *references) < 1.6 * frame.stats.error
 
 
 @pytest.mark.parametrize("settings", [{"target_error": 0.05}, {"samples": 16, "accumulate": 8}])
-def test_the_field_is_the_number_pixel_by_pixel(shared, subject, settings):
+def test_the_error_field_has_the_frames_error_as_root_mean_square(shared, subject, settings):
     frame = render_blob(shared, subject[0], **settings)
     covered = frame.material > 0
     assert np.sqrt(np.mean(frame.error[covered].astype(np.float64) ** 2)) == pytest.approx(frame.stats.error, rel=1e-5)
@@ -56,7 +56,7 @@ def test_the_field_is_the_number_pixel_by_pixel(shared, subject, settings):
     assert parts == pytest.approx(frame.stats.error, rel=1e-12)
 
 
-def test_the_field_says_where_the_error_is(shared, subject):
+def test_the_error_field_is_large_where_the_error_is(shared, subject):
     """Pixels in four groups by their estimated error: their true errors rise in the same order."""
     brdf, (a, b) = subject
     frame = render_blob(shared, brdf, samples=64, allocation="constant_variance", sampler="brdf", seed=6)
@@ -68,8 +68,8 @@ def test_the_field_says_where_the_error_is(shared, subject):
     assert errors[0] < errors[3]
 
 
-def test_a_frame_without_prediction_keeps_its_promise(shared, subject):
-    """Its further rounds know of its pixels what former ones measured, and nothing else."""
+def test_a_frame_without_prediction_reaches_its_target_error(shared, subject):
+    """Its further rounds are planned by what previous ones measured, and by nothing else."""
     frame = render_blob(shared, subject[0], method="reference", sampler="combined", target_error=0.02)
     covered = frame.material > 0
     assert frame.stats.rounds > 1
@@ -78,7 +78,7 @@ def test_a_frame_without_prediction_keeps_its_promise(shared, subject):
     assert frame.stats.error <= 0.02
 
 
-def test_more_is_asked_more_is_drawn(shared, subject):
+def test_smaller_target_errors_take_more_samples(shared, subject):
     frames = [render_blob(shared, subject[0], target_error=asked) for asked in (0.1, 0.03, 0.01)]
     assert frames[0].stats.samples < frames[1].stats.samples < frames[2].stats.samples
 
@@ -88,8 +88,9 @@ def test_equal_seeds_give_equal_frames(shared, subject):
     assert np.array_equal(first.color, second.color) and first.stats.error == second.stats.error
 
 
-def test_a_time_is_spent(shared, subject):
-    """Not a measurement of speed: a budget of forty times another buys a better frame, from more samples, on a busy machine too."""
+def test_a_time_budget_is_spent(shared, subject):
+    """Not a measurement of speed: a budget of forty times another buys a better frame, from more samples, on a busy
+    machine too."""
     for _ in range(2):  # drivers compile until a shader's second use, which may take longer than any budget
         render_blob(shared, subject[0], time_budget=400)
     frames = [render_blob(shared, subject[0], time_budget=budget) for budget in (40, 1600)]
@@ -112,27 +113,28 @@ def test_an_error_cannot_be_asked_of_accumulated_frames(shared, scene):
         frame.render(scene)
 
 
-def test_witnesses_are_others_in_every_round(shared):
-    """On levels that stay as they are, all that a round shades anew are its witnesses: some sixteenth of what is interpolated."""
+def test_every_round_has_other_validation_pixels(shared):
+    """Where levels do not change, the new pixels of a round are its validation pixels: some sixteenth of the
+    interpolated ones."""
     scene = shared.scene()
     scene.environment = shared.environment(light(directions()))
     scene.add(shared.builtin_mesh("blob", 128), shared.builtin_brdf("interference-paint"))
     scene.camera(eye=(0.3, 0.4, 1.9), target=(0, 0, 0), fov_y=0.6)
-    # Both tolerate as much contrast (3 %), so that their first rounds are alike.
+    # Both have the same tolerance of the contrast test (3 %), so that their first rounds are alike.
     frames = [shared.frame(160, 128, target_error=asked, bandwidth_scale=0.2) for asked in (0.025, 0.01)]
     for frame in frames:
         frame.render(scene)
     few, many = (frame.stats for frame in frames)
     assert few.rounds < many.rounds == 8
-    drawn = (many.shaded_pixels - few.shaded_pixels) / (many.rounds - few.rounds)
+    new_pixels = (many.shaded_pixels - few.shaded_pixels) / (many.rounds - few.rounds)
     left = many.covered_pixels - np.array([few.shaded_pixels, many.shaded_pixels])
-    assert 0.8 * left.min() / 16 < drawn < 1.2 * left.max() / 16
+    assert 0.8 * left.min() / 16 < new_pixels < 1.2 * left.max() / 16
 
 
 @pytest.mark.parametrize("size", [1, 2, 4, 8])
-def test_tiny_frames_know_their_bias(shared, size):
-    """Under constant light every sample of a cut errs alike, and no spread tells of it: all of so few pixels are audited. An audit shows
-    what 1 / (1 + 0.3 / 4^1.2) of the square would be (src/frame/audit.cpp), and errs by as much as it foresees wrongly."""
+def test_tiny_frames_estimate_their_bias(shared, size):
+    """Under constant light all samples of a cut err alike, which no spread contains. All of so few pixels are in the
+    control set, which sees the squared error up to a factor of 1 + 0.3 / 4^1.2 (src/frame/control_set.cpp)."""
     scene = shared.scene()
     scene.environment = shared.environment(np.ones((8, 16, 3), np.float32))
     scene.add(shared.builtin_mesh("plane"), shared.lambert(0.5))
@@ -141,7 +143,7 @@ def test_tiny_frames_know_their_bias(shared, size):
     frame.render(scene)
     true = np.sqrt(np.mean(((luminance(frame) - 0.5) / 0.505) ** 2))
     assert frame.stats.control_pixels == size * size
-    if frame.stats.sampler_replaced:  # samples without bias have no error here, and the frame found out
+    if frame.stats.sampler_replaced:  # unbiased samples have no error here, and the recheck detected that
         assert true < 1e-5 < frame.stats.error
     else:
         assert true > 0.005 and true / 1.6 < frame.stats.error < 1.6 * true
@@ -188,25 +190,26 @@ def test_progress_moves_while_a_frame_is_shaded(shared, scene):
         assert seen.count(1) <= 2  # at the end of the last dispatch, and of the frame
 
 
-def test_of_few_pixels_every_one_that_might_be_interpolated_is_looked_at(shared):
-    """Fewer witnesses than tell anything: in a second round all are, so that none is left to be interpolated unseen."""
+def test_of_few_pixels_all_that_may_be_interpolated_are_validated(shared):
+    """A sixteenth would be too few validation pixels; in a second round all are, so that none is interpolated without
+    validation."""
     scene = shared.scene()
     scene.environment = shared.environment(np.random.default_rng(1).uniform(size=(16, 32, 3)).astype(np.float32) ** 4)
     scene.add(shared.builtin_mesh("sphere", 32), shared.builtin_brdf("matte-fabric"))
     scene.camera(eye=(0, 0, 1.3), target=(0, 0, 0))
-    again = 0
+    with_second_round = 0
     for size, seed in ((10, 3), (12, 3), (14, 1), (14, 2), (16, 3)):
         frame = shared.frame(size, size, target_error=0.02, bandwidth_scale=0.2, seed=seed)
         frame.render(scene)
         if frame.stats.rounds > 1:
-            again += 1
+            with_second_round += 1
             assert frame.stats.shaded_pixels == frame.stats.covered_pixels <= 255
-    assert again > 0
+    assert with_second_round > 0
 
 
 @pytest.fixture(scope="module")
 def many_samples(shared):
-    """A material and what it shows, by many samples of every pixel."""
+    """A material and its picture with many samples of every pixel."""
     brdf = shared.ggx(0.3, (0.9, 0.7, 0.4))
     return brdf, luminance(render_blob(shared, brdf, samples=16384, coarsest_level=0, sampler="combined", seed=7001))
 
@@ -241,7 +244,7 @@ EXTREME_MAPS = {"sun of 1e6": one_bright_texel(), "one texel": np.ones((1, 1, 3)
 @pytest.mark.parametrize("material", ["mirror", "black", "rough"])
 @pytest.mark.parametrize("asked", [{"target_error": 0.05}, {"time_budget": 20}])
 def test_extremes_have_an_error_too(shared, size, map_name, material, asked):
-    """Finite pictures and estimates whatever is asked; and where a closed form is known, the error is what it says."""
+    """Pictures and estimates are finite whatever is asked for, and a black material has no error."""
     brdf = {"mirror": lambda: shared.ggx(1e-4, (1, 1, 1)), "black": lambda: shared.lambert(0),
             "rough": lambda: shared.ggx(0.5, (0.5, 0.5, 0.5))}[material]()
     scene = shared.scene()
@@ -256,8 +259,8 @@ def test_extremes_have_an_error_too(shared, size, map_name, material, asked):
         assert frame.stats.error == 0 and not frame.color[..., :3].any()
 
 
-def test_every_pixel_is_held_against_itself(shared):
-    """Pixels of two materials, a bright and a dark one, are shaded in another order than they are looked at."""
+def test_every_control_pixel_is_compared_with_itself(shared):
+    """Pixels of two materials, a bright and a dark one, are shaded in another order than they are compared in."""
     scene = shared.scene()
     scene.environment = shared.environment(light(directions()))
     for x, material in ((-0.45, "matte-fabric"), (0.45, "rough-gold")):
@@ -270,7 +273,8 @@ def test_every_pixel_is_held_against_itself(shared):
     references = [luminance(rendered(shared, scene, *BLOB_SIZE, seed=seed, **settings)) for seed in (93, 94)]
     frame = rendered(shared, scene, *BLOB_SIZE, target_error=0.03)
     assert frame.stats.control_pixels > 100
-    # As of one material alone; were one pixel held against another's, the estimate could not fall below their difference.
+    # As with one material alone; if a pixel was compared with another one, the estimate could not fall below their
+    # difference.
     assert true_error(frame, *references) < 1.5 * 0.03
     assert frame.stats.error <= 0.03
     assert frame.stats.samples < 256 * frame.stats.covered_pixels

@@ -1,4 +1,5 @@
-"""Only what the scene needs: the plan of a frame holds what was asked for and nothing else, and what is not asked for costs no byte."""
+"""The plan of a frame holds the passes that scene and settings need and no others, and what is not needed takes no
+memory."""
 
 import numpy as np
 import pytest
@@ -30,7 +31,7 @@ def test_an_adaptive_frame(context, sphere):
     assert frame.stats.rounds == 1
 
 
-def test_without_bias_nothing_is_audited(context, sphere):
+def test_an_unbiased_sampler_has_no_control_set(context, sphere):
     frame = rendered(context, sphere, *SIZE, samples=16, sampler="combined")
     assert passes(frame) == ["gbuffer", "covered", *PREDICTION, "classify", "list", "shade", "upsample", "estimate", "combine"]
     assert frame.stats.control_pixels == 0 and frame.stats.bias_error == 0
@@ -55,7 +56,7 @@ def test_no_background_no_pass(context, sphere):
 
 def test_rounds_repeat_passes_and_add_none(context, sphere):
     frame = rendered(context, sphere, *SIZE, time_budget=400)
-    for _ in range(4):  # in the first frames tables and the driver's compiler take what there is
+    for _ in range(4):  # in the first frames, tables and the driver's compiler take all of the time
         frame.render(sphere)
         if frame.stats.rounds == 2 and "control" in passes(frame):
             break
@@ -68,38 +69,38 @@ def test_rounds_repeat_passes_and_add_none(context, sphere):
     assert passes(rendered(context, sphere, *SIZE, target_error=0.1)) == once
 
 
-def test_where_interpolation_does_not_pay_nothing_is_interpolated(context, sphere):
-    """An error so small that nearly every pixel is to be shaded is reached sooner where all are."""
+def test_without_a_gain_nothing_is_interpolated(context, sphere):
+    """A target error so small that nearly every pixel is shaded is reached sooner where all are."""
     frame = rendered(context, sphere, *SIZE, target_error=0.001)
     assert frame.stats.shaded_pixels == frame.stats.covered_pixels and "upsample" not in passes(frame)
     assert rendered(context, sphere, *SIZE, target_error=0.1).stats.shaded_pixels < frame.stats.shaded_pixels
-    # What was made for it is gone: no byte is left of it, and levels are those of the bandwidth as it is.
+    # The buffers of interpolation are released, and levels are those of the bandwidth without a scale.
     every = rendered(context, sphere, *SIZE, target_error=0.001, coarsest_level=0)
     assert frame.stats.device_bytes == every.stats.device_bytes
     np.testing.assert_array_equal(frame.level, rendered(context, sphere, *SIZE, samples=16, bandwidth_scale=1).level)
 
 
-def test_variances_are_gathered_where_shares_follow_them(context, sphere):
-    """Under a cut all pixels of one spacing have alike; the field is there all the same."""
-    shared, alike = (rendered(context, sphere, *SIZE, samples=16, bandwidth_scale=1, allocation=allocation)
+def test_variances_are_gathered_where_sample_weights_follow_them(context, sphere):
+    """With the sampler cut, all pixels of one spacing have equal numbers of samples; the field exists all the same."""
+    by_variance, equal = (rendered(context, sphere, *SIZE, samples=16, bandwidth_scale=1, allocation=allocation)
                      for allocation in ("constant_variance", "least_error"))
-    rows = shared.level_pyramid.shape[0]
-    lists = 4 * (shared.stats.shaded_pixels - alike.stats.shaded_pixels)
-    assert shared.stats.device_bytes - alike.stats.device_bytes == 4 * rows * 64 + lists
-    np.testing.assert_array_equal(shared.variance_pyramid, alike.variance_pyramid)
-    assert shared.variance_pyramid.max() > 0
+    rows = by_variance.level_pyramid.shape[0]
+    lists = 4 * (by_variance.stats.shaded_pixels - equal.stats.shaded_pixels)
+    assert by_variance.stats.device_bytes - equal.stats.device_bytes == 4 * rows * 64 + lists
+    np.testing.assert_array_equal(by_variance.variance_pyramid, equal.variance_pyramid)
+    assert by_variance.variance_pyramid.max() > 0
 
 
-def test_samples_of_the_lobe_alone_draw_none_of_the_map(context, sphere):
-    """The map's directions, 65,536 of 32 bytes, and 64 clusters of as many are made when they are first asked for."""
+def test_the_brdf_sampler_makes_no_directions_of_the_map(context, sphere):
+    """The map's directions, 65,536 of 32 bytes, and 64 clusters of as many are computed when they are first needed."""
     before = rendered(context, sphere, *SIZE, samples=16, coarsest_level=0, sampler="brdf").stats.device_bytes
     after = rendered(context, sphere, *SIZE, samples=16, coarsest_level=0, sampler="combined").stats.device_bytes
     importance = 64 * (2 * 16 * 16 + 1) * 4  # of each view, means and peaks of cells, and their integral
     assert after - before == 65536 * 32 + 64 * 32 + importance
 
 
-def test_a_pixel_that_sees_nothing_is_in_no_list(context, sphere):
-    """Passes over covered pixels count those alone."""
+def test_only_covered_pixels_are_in_lists(context, sphere):
+    """Passes over covered pixels process no others."""
     frame = rendered(context, sphere, *SIZE, samples=16)
     for line in frame.plan.splitlines():
         if line.split()[0] in ("bandwidth", "classify", "upsample"):
@@ -107,8 +108,8 @@ def test_a_pixel_that_sees_nothing_is_in_no_list(context, sphere):
 
 
 @pytest.mark.parametrize("settings", [{}, {"allocation": "constant_variance"}, {"coarsest_level": 0}, {"method": "reference"}], ids=str)
-def test_a_plan_foretells_passes_and_bytes(context, sphere, settings):
-    """Of the lists it knows how many pixels they may hold at most, 4 bytes each."""
+def test_a_plan_predicts_passes_and_bytes(context, sphere, settings):
+    """It counts lists at the size that they may have at most, 4 bytes a pixel."""
     def planned_bytes(frame):
         return sum(float(line[12:].split()[0]) for line in frame.plan_for(sphere).splitlines()) * 1e6
 

@@ -1,4 +1,5 @@
-"""The biased samplers (filtered, cut): exact where they must be, better where they may be, absent where they are not asked for."""
+"""The biased samplers (filtered, cut): exact where there is no blur, less noisy elsewhere, without cost where they are
+not used."""
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ def scene_of(shared, brdf, environment):
 
 
 def deviation(frame, truth):
-    """Root mean square over the covered pixels, relative to what they show."""
+    """Root mean square over the covered pixels, relative to their truth."""
     covered = truth.material > 0
     return np.sqrt(np.mean((frame.color[covered][:, :3] / truth.color[covered][:, :3] - 1) ** 2))
 
@@ -29,7 +30,8 @@ def smooth(shared):
 
 
 def test_a_constant_map_has_no_footprint(shared):
-    """Whatever the footprint, the mean of a constant is the constant: a Lambertian furnace stays exact but for half floats' 2^-11."""
+    """The mean of a constant over any footprint is the constant: a Lambertian furnace is exact up to the 2^-11 of half
+    floats."""
     scene = scene_of(shared, shared.lambert(1.0), shared.environment(np.ones((16, 32, 3), np.float32)))
     frame = rendered(shared, scene, *SIZE, samples=4, sampler="filtered", **EVERY)
     np.testing.assert_allclose(frame.color[frame.material > 0], 1, atol=2**-11)
@@ -38,8 +40,9 @@ def test_a_constant_map_has_no_footprint(shared):
 def test_a_mirror_looks_the_map_up_as_it_is(shared, smooth):
     """A footprint below a texel of 128 x 128 (8e-4 steradians at most) is a lookup of the map itself.
 
-    GGX of alpha a draws densities below p with a chance of 2 a sqrt(pi p): footprints of 1 / (16 p) reach a texel for 0.3 % of the
-    samples, and 5 % of the pixels have one. The others differ by where their points lie, within a peak some 1e-4 radians wide.
+    GGX of alpha a draws densities below p with a chance of 2 a sqrt(pi p): footprints of 1 / (16 p) reach a texel for
+    0.3 % of the samples, and 5 % of the pixels have one. The others differ by where their points lie, within a peak
+    some 1e-4 radians wide.
     """
     scene = scene_of(shared, shared.ggx(1e-4, (0.9, 0.9, 0.9)), smooth)
     plain, filtered = (rendered(shared, scene, *SIZE, samples=16, sampler=sampler, **EVERY)
@@ -51,24 +54,25 @@ def test_a_mirror_looks_the_map_up_as_it_is(shared, smooth):
 
 
 @pytest.mark.parametrize("sampler, unbiased", [("filtered", "brdf"), ("cut", "combined")])
-def test_bias_takes_noise_away_and_falls(shared, smooth, sampler, unbiased):
+def test_biased_samplers_have_less_noise_and_converge(shared, smooth, sampler, unbiased):
     scene = scene_of(shared, shared.ggx(0.3, (0.9, 0.6, 0.3)), smooth)
     truth = rendered(shared, scene, *SIZE, samples=1024, accumulate=16, seed=9, sampler="combined", **EVERY)
     plain = rendered(shared, scene, *SIZE, samples=16, sampler=unbiased, **EVERY)
     biased, finer = (rendered(shared, scene, *SIZE, samples=samples, sampler=sampler, **EVERY) for samples in (16, 256))
-    # What they are for: half the error at equal samples (a quarter of the samples at equal error) under the smoothest map.
+    # Half the error at equal samples (a quarter of the samples at equal error) under the smoothest map.
     assert deviation(biased, truth) < 0.5 * deviation(plain, truth)
-    # Sixteen times the samples shrink footprints and parts to a sixteenth: a bias of second order falls by sixteen, noise by four
-    # and more.
+    # Sixteen times the samples shrink footprints and parts to a sixteenth: a bias of second order falls by sixteen,
+    # noise by four and more.
     assert deviation(finer, truth) < deviation(biased, truth) / 3
 
 
 def test_a_cut_of_a_constant_map_is_the_constant(shared):
-    """Below the soft ceilings lies a part of the light, above them the rest: together the furnace's 1, at any roughness.
+    """Light below the soft ceilings and light above them add up to the furnace's 1, at any roughness.
 
-    The cut's parts are cells of the sphere, and the cosine is taken at their middles. Of 16 samples' cut a cell is w = 0.6 radians
-    wide, and one that the horizon halves is taken to send nothing of its w^3 / (8 pi) = 0.9 %, or twice that: of some ten around the
-    horizon, half at most either way. What lies above is half of the light. Of 1,024 samples' it is 0.1 radians wide.
+    The nodes of the cut are cells of the sphere, and the cosine is that at their centres. With 16 samples a cell is w =
+    0.6 radians wide. One that the horizon halves contributes nothing instead of its w^3 / (8 pi) = 0.9 %, or twice
+    that: of some ten around the horizon, half at most err to one side. Half of the light lies above the ceilings. With
+    1,024 samples a cell is 0.1 radians wide.
     """
     scene = scene_of(shared, shared.lambert(1.0), shared.environment(np.ones((16, 32, 3), np.float32)))
     for samples, bound in ((16, 0.045), (1024, 0.003)):
@@ -76,7 +80,7 @@ def test_a_cut_of_a_constant_map_is_the_constant(shared):
         np.testing.assert_allclose(frame.color[frame.material > 0], 1, atol=bound)
 
 
-def test_a_cut_does_not_depend_on_where_the_map_is_bright(shared):
+def test_a_cut_does_not_depend_on_the_orientation_of_the_world(shared):
     """Turning the world by a quarter about the up axis turns the map's columns, its blocks and its tree along."""
     texels = light(directions())
     pictures = []
@@ -94,13 +98,13 @@ def test_a_cut_does_not_depend_on_where_the_map_is_bright(shared):
 
 @pytest.mark.parametrize("value", [0.0, 1e-40, 1e15])
 def test_the_darkest_and_the_brightest_map(shared, value):
-    """A black, a denormal and the brightest map that is taken: relative to it, everything is as ever."""
+    """A black map, a denormal one and the brightest that is accepted."""
     texels = np.full((16, 32, 3), value, np.float32)
     scene = scene_of(shared, shared.ggx(0.4, (0.9, 0.9, 0.9)), shared.environment(texels))
     for sampler in ("filtered", "cut"):
         color = rendered(shared, scene, *SIZE, samples=16, sampler=sampler, **EVERY).color[..., :3]
         assert np.isfinite(color).all()
-        assert color.max() <= 1.5 * texels.max()  # twice what is reflected would show a ceiling that was counted twice
+        assert color.max() <= 1.5 * texels.max()  # light counted both below and above a ceiling would be twice as much
 
 
 def test_one_texel_of_a_million(shared):
@@ -111,14 +115,15 @@ def test_one_texel_of_a_million(shared):
     cut = rendered(shared, scene, *SIZE, samples=256, sampler="cut", **EVERY)
     covered = truth.material > 0
     assert np.isfinite(cut.color).all()
-    # The lamp is a part of every cut: what it sends is known where it is.
+    # The lamp is a node of every cut, so that its light has no noise.
     assert abs(cut.color[covered][:, :3].mean() / truth.color[covered][:, :3].mean() - 1) < 0.02
 
 
 @pytest.mark.parametrize("hides, bytes_below", [(False, 8), (True, 16)])
-def test_tables_are_made_when_they_are_asked_for(context, hides, bytes_below):
-    """A layer of 16 bytes a texel on the square that fits the map, or eight of 8 and the tree; with all coarser levels. Of 16 where a
-    surface may face light so dim beside what it does not see that halves would not hold it."""
+def test_tables_are_made_when_a_sampler_needs_them(context, hides, bytes_below):
+    """The sampler filtered needs one layer of 16 bytes a texel on the square that fits the map; cut needs eight layers
+    of 8 bytes, and the tree. Both have all coarser levels. A texel of the eight layers has 16 bytes where a surface may
+    face light so dim, relative to light that it does not see, that half floats cannot hold it."""
     radiance = light(directions())
     if hides:
         radiance[40, 0] = 1e9
@@ -128,8 +133,8 @@ def test_tables_are_made_when_they_are_asked_for(context, hides, bytes_below):
     sizes = [rendered(context, scene, *SIZE, samples=16, sampler=sampler, **EVERY).stats.device_bytes
              for sampler in ("brdf", "filtered", "combined", "cut")]
     importance = 64 * (2 * 16 * 16 + 1) * 4  # of each view, means and peaks of cells, and their integral
-    points = 65536 * 32 + 64 * 32  # the audits of both biased samplers draw some pixels by the map's points
-    tree = (64 + 32) * (512 * (4 + 8 * 4) * 4 + 32)  # two trunks, each of whose parts has a heap
+    points = 65536 * 32 + 64 * 32  # control samples and rechecks of both biased samplers use directions of the map
+    tree = (64 + 32) * (512 * (4 + 8 * 4) * 4 + 32)  # two trunks, each of whose nodes has a tree
     assert sizes[1] - sizes[0] == 16 * texels + points + importance
     assert sizes[2] == sizes[1]
     assert sizes[3] - sizes[2] == 8 * bytes_below * texels + tree
@@ -143,8 +148,8 @@ def test_a_reference_has_no_bias(shared, smooth):
     assert frames[0].stats.control_pixels == 0 and frames[0].stats.bias_error == 0
 
 
-def test_an_audit_finds_the_bias(shared):
-    """A lobe that is filtered under one lamp is wrong by far more than its samples tell: the frame says so, and how much."""
+def test_control_samples_find_the_bias(shared):
+    """Under one lamp, filtering errs by far more than the spread of its samples: the frame estimates by how much."""
     texels = np.full((64, 128, 3), 0.05, np.float32)
     texels[20:23, 40:43] = 500
     scene = scene_of(shared, shared.ggx(0.1, (0.9, 0.6, 0.3)), shared.environment(texels))
@@ -155,5 +160,5 @@ def test_an_audit_finds_the_bias(shared):
     error = np.sqrt(np.mean(((seen - true) / (true + 0.01 * true.mean())) ** 2))
     assert frame.stats.control_pixels > 100
     assert frame.stats.bias_error > 0.3 * frame.stats.error
-    # Products of deviations are believed up to 1, and half of the few hundred covered pixels are looked at.
+    # Squared deviations are clamped at 1, and half of the few hundred covered pixels are in the control set.
     assert frame.stats.error == pytest.approx(error, rel=0.5)
