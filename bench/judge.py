@@ -1,4 +1,4 @@
-"""An independent judge: do lightband and Mitsuba 3 converge to the same pictures?
+"""Agreement with Mitsuba 3: whether lightband and Mitsuba converge to the same pictures.
 
     python bench/judge.py --data DATA --materials MERL --out docs/measurements [--size 128] [--spp 1024]
 
