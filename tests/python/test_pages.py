@@ -1,4 +1,5 @@
-"""Pages that follow from the library are what it says: docs/how-a-frame-is-made.md with its picture, docs/settings.md."""
+"""Pages that follow from the library are what it says: docs/how-a-frame-is-made.md with its picture, docs/settings.md.
+No page names a file that does not exist."""
 
 import re
 import subprocess
@@ -17,6 +18,20 @@ def test_every_file_that_is_named_exists():
     for name in named:
         path = ROOT / name if "/" in name else ROOT / "shaders" / name
         assert path.exists() or path.with_suffix(".h").exists(), name
+
+
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_links_and_file_names_exist(page):
+    text = page.read_text()
+    for target in re.findall(r"\]\((?!https?:)([^)#]+)", text):
+        assert (page.parent / target).exists(), target
+    for name in re.findall(r"\b((?:src|shaders|tests|bench|scripts|docs)/[\w./-]*\w)", text):
+        path = ROOT / name
+        exists = path.exists() or path.with_suffix(".h").exists()
+        assert exists or list(path.parent.glob(f"{path.name}-*.md")), name  # a decision is cited by its number
 
 
 def test_every_pass_is_explained(context, scene):
