@@ -28,7 +28,7 @@ def test_links_and_file_names_exist(page):
     text = page.read_text()
     for target in re.findall(r"\]\((?!https?:)([^)#]+)", text):
         assert (page.parent / target).exists(), target
-    for name in re.findall(r"\b((?:src|shaders|tests|bench|scripts|docs)/[\w./-]*\w)", text):
+    for name in re.findall(r"(?<![\w/])((?:src|shaders|tests|bench|scripts|docs)/[\w./-]*\w)", text):
         path = ROOT / name
         exists = path.exists() or path.with_suffix(".h").exists()
         assert exists or list(path.parent.glob(f"{path.name}-*.md")), name  # a decision is cited by its number
