@@ -3,7 +3,7 @@
 #include "covered.glsl"
 #include "decision.glsl"
 #if defined(INTERPOLATE)
-#include "lamps.glsl"
+#include LIGHT_FILES
 #include "parents.glsl"
 layout(binding = 0, r8ui) readonly uniform uimage2D levels;
 #if defined(SHARES_FOLLOW_VARIANCE)
@@ -78,7 +78,7 @@ vec4 weights_of_parents(ivec2 at, int level, float pixel_level, out bool sound) 
     for (int corner = 0; corner < 4; ++corner) {
         if (parents.weight[corner] <= 0.0) continue;
         sound = sound && int(imageLoad(levels, parents.at[corner]).r) > level;
-        sound = sound && !parted_by_horizon(normal, surface_at(parents.at[corner]).normal);
+        sound = sound && !LIGHTS_SET_BETWEEN(normal, surface_at(parents.at[corner]).normal);
         between += parents.weight[corner] * expected_at(parents.at[corner]);
     }
     sound = sound && abs(relative_contrast(expected_at(at), between)) <= tolerance;

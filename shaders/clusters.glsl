@@ -67,7 +67,7 @@ vec4 sample_clusters(Pixel pixel, uint n, float share, uint which, inout uint st
         if (wi.z > 0.0 && chance > 0.0) {
             vec4 light = texelFetch(map_points, index + 1);
             vec2 density;
-            vec3 value = evaluate_lobe(pixel.lobe, wi, density) * light.rgb;
+            vec3 value = evaluate_lobe(pixel.lobe, wi, density) * light.rgb * environment_scale;
             float part = 1.0 - part_of_lobe(density, light.a);
             sum += with_square(value * (share * point.w / (chance * float(MAP_CLUSTERS)) * part));
         }

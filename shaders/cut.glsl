@@ -82,5 +82,6 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
         place >>= up;
         depth -= up;
     }
-    return light;
+    coarser *= environment_scale;
+    return environment_scale * light;
 }

@@ -2,7 +2,7 @@
 // weighted by its texel's solid angle, which alpha holds (in units of the largest, 3^1.5 times the smallest): so coarser levels
 // are plain means.
 #include "common.glsl"
-#include "light.glsl"
+#include "environment.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0, LIGHT_FORMAT) writeonly uniform image2DArray footprints;

@@ -3,7 +3,6 @@
 #include "common.glsl"
 #include "decision.glsl"
 #include "lobe.glsl"
-#include "light.glsl"
 #include "surface.glsl"
 layout(local_size_x = SHADE_GROUP) in;
 
@@ -38,11 +37,14 @@ vec4 with_square(vec3 value) {
 bool may_be_above(vec3 wi, float sine) { return wi.z > -sine || sine >= 1.0; }
 vec3 middle_above(vec3 wi, float sine) { return wi.z < sine ? normalize(vec3(wi.xy, 0.5 * (wi.z + sine))) : wi; }
 
-#if defined(SAMPLER_COMBINED)
-#include "clusters.glsl"
-#elif defined(SAMPLER_CUT)
-#include "cut.glsl"
-#endif
+// Point i of n of the lattice of the golden ratio under a shift of each pixel's own: even points, a mean without bias.
+vec2 lattice_point(uint i, uint n, float offset, uint turn) {
+    const uint golden_ratio = 2654435769u;  // its fraction in 32 bits
+    const float below_one = 0.99999994;
+    return vec2(min((float(i) + offset) / float(n), below_one), unit(i * golden_ratio + turn));
+}
+
+#include LIGHT_FILES
 
 const uint unfinished = 0x80000000u;
 
@@ -66,16 +68,7 @@ vec3 light_of_sample(Pixel pixel, vec2 u, float footprints, bool wide) {
     vec2 density;
     if (!sample_lobe(pixel.lobe, u, wi, weight, density)) return vec3(0);
     vec3 direction = pixel.frame * wi;
-#if defined(FILTERED)
-    return weight * (wide ? light_of_footprint(direction, wi.z, density, footprints)
-                          : light_for_lobe(direction, wi.z, density, footprints));
-#else
-    vec4 light = light_from(direction);
-#if defined(SAMPLER_COMBINED)
-    light *= part_of_lobe(density, light.a);
-#endif
-    return weight * light.rgb;
-#endif
+    return weight * LIGHTS_OF_SAMPLE(pixel, wi, direction, density, footprints, wide);
 }
 
 // A sum over samples: of RGB and squared luminance; and of every other one's luminance.
@@ -87,13 +80,6 @@ struct Sum {
 void add(inout Sum sum, uint i, vec3 light) {
     sum.all += with_square(light);
     if ((i & 1u) != 0u) sum.odd += luminance(light);
-}
-
-// Point i of n of the lattice of the golden ratio under a shift of each pixel's own: even points, a mean without bias.
-vec2 lattice_point(uint i, uint n, float offset, uint turn) {
-    const uint golden_ratio = 2654435769u;  // its fraction in 32 bits
-    const float below_one = 0.99999994;
-    return vec2(min((float(i) + offset) / float(n), below_one), unit(i * golden_ratio + turn));
 }
 
 // Sum over n samples of the lobe; share: of all samples for each of these.
@@ -169,12 +155,11 @@ void main() {
     float former_spread = had > 0u ? imageLoad(spreads, at).r : 0.0;
     vec2 luminances = vec2(had_each) * (luminance(previous.rgb) + former_spread * vec2(1, -1));
     Pixel pixel = pixel_at(at);
-#if defined(SAMPLER_COMBINED)
-    find_clusters(pixel);
-#endif
+    LIGHTS_PREPARE(pixel)
     uint state = hash(entry ^ hash(seed ^ hash(had)));
     vec4 sum = previous * float(had);
     draw(pixel, each - had_each, total, sum, luminances, state);
+    LIGHTS_SAMPLES(pixel, each - had_each, sum, luminances, state)
     vec4 mean = sum / float(total);
     luminances /= vec2(max(each, uvec2(1)));
     float spread = total > 1u ? 0.5 * (luminances.x - luminances.y) : luminance(mean.rgb);

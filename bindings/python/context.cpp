@@ -117,6 +117,11 @@ std::shared_ptr<Environment> environment(const Context& self, const Given& radia
     return held(Environment{{self.log}, std::move(handle), std::to_string(width) + " x " + std::to_string(height)});
 }
 
+std::shared_ptr<Sun> sun(const Context& self, const Given& direction, const Given& irradiance, const Given& angular_radius) {
+    const lightband::Sun described = to_sun(direction, irradiance, angular_radius);
+    return held(Sun{{self.log}, in_library([&] { return self.handle.sun(described); })});
+}
+
 std::shared_ptr<Mesh> mesh(const Context& self, const Given& positions, const Given& indices, const Given& normals,
                            const Given& texcoords) {
     const FloatArray vertices = to_floats(positions, {any_length, 3});
@@ -191,6 +196,13 @@ A latitude-longitude map: +Y is up, the centre looks along +Z, the left edge alo
     define(type, "environment(self, radiance)", &environment, R"(Distant light from an array.
 
 radiance: height x width x 3, linear RGB, rows top-down; laid out as in load_environment. Copied.)");
+    define(type, "sun(self, direction, irradiance, angular_radius=None)", &sun, R"(A disc of uniform radiance, infinitely far away.
+
+direction: towards the sun, in world space, of any length but zero.
+irradiance: RGB, or one number for all three: of a surface that faces the sun, in units of radiance times steradian. It is
+    the radiance of the disc times pi sin^2(angular_radius).
+angular_radius: radians, 1e-4 to pi / 2; None: 0.004652, that of the sun seen from the earth.
+Scene.add_light puts it into a scene.)");
     define(type, "mesh(self, positions, indices, normals=None, texcoords=None)", &mesh, R"(Triangles from arrays, copied.
 
 positions: vertices x 3, metres.

@@ -122,6 +122,17 @@ float to_float(const Given& given) {
     return float(number);
 }
 
+float to_setting(const Given& given) {
+    if (given.value.is_none()) {
+        return 0;
+    }
+    const float value = to_float(given);
+    if (value == 0) {
+        given.refuse_value("is 0; it must be above 0, or None for the default");
+    }
+    return value;
+}
+
 uint32_t to_uint32(const Given& given) {
     constexpr const char* expected = "a whole number";
     PyObject* const object = given.value.ptr();

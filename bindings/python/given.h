@@ -44,6 +44,9 @@ double to_double(const Given& given, const std::string& expected = "a number");
 // The same as float32.
 float to_float(const Given& given);
 
+// None: 0, by which the C interface means the default; so in Python a zero is a mistake.
+float to_setting(const Given& given);
+
 uint32_t to_uint32(const Given& given);
 
 std::string to_text(const Given& given);

@@ -68,7 +68,16 @@ FloatArray albedo(const Brdf& self, const Given& theta_o) {
     return result;
 }
 
+void set_sun(const Sun& self, const Given& direction, const Given& irradiance, const Given& angular_radius) {
+    const lightband::Sun sun = to_sun(direction, irradiance, angular_radius);
+    in_library([&] { self.handle.set(sun); });
+}
+
 }  // namespace
+
+lightband::Sun to_sun(const Given& direction, const Given& irradiance, const Given& angular_radius) {
+    return {to_vector(direction), to_colour(irradiance), to_setting(angular_radius)};
+}
 
 void bind_light_and_material(py::module_& module) {
     EnvironmentClass environment(module, "Environment",
@@ -88,6 +97,16 @@ It ends at what its texels, or the map's, can show.)");
         environment, "__repr__(self)",
         +[](const Environment* self) { return describe("Environment", *self, self->description); },
         "Where the light comes from.");
+
+    py::class_<Sun, std::shared_ptr<Sun>> sun(
+        module, "Sun", "A disc of uniform radiance, infinitely far away. Made by Context.sun.", collectable<Sun>());
+    refuse_construction(sun, "Context.sun makes one");
+    bind_closing(sun);
+    define(sun, "set(self, direction, irradiance, angular_radius=None)", &set_sun, R"(Moves and changes the sun; see Context.sun.
+
+Scenes that it is in show it when they are rendered next.)");
+    define(
+        sun, "__repr__(self)", +[](const Sun* self) { return describe("Sun", *self, "a distant disc"); }, "That it is a sun.");
 
     BrdfClass brdf(module, "Brdf", R"(A reflectance, in 1/steradian.
 

@@ -40,6 +40,10 @@ struct Environment : Collectable {
     std::string description;
 };
 
+struct Sun : Collectable {
+    lightband::Light handle;
+};
+
 struct Mesh : Collectable {
     lightband::Mesh handle;
     std::string description;
@@ -66,6 +70,9 @@ struct Frame : Collectable {
 
 // Sets a setting to a number or, for a choice, its name; messages speak of value.function and of the setting.
 void set_setting(Frame& frame, const std::string& name, const Given& value);
+
+// From Python's arguments.
+lightband::Sun to_sun(const Given& direction, const Given& irradiance, const Given& angular_radius);
 
 // Lets the garbage collector see what an object refers to, and break cycles at it.
 template <typename Object>

@@ -18,18 +18,6 @@ py::object mesh_stats(const Mesh& self) {
                        py::make_tuple(stats.vertices, stats.triangles, stats.dropped_triangles, corner(stats.bounds_min), corner(stats.bounds_max)));
 }
 
-// The C interface reads zero as the default; in Python that is None, so a zero is a mistake.
-float to_setting(const Given& given) {
-    if (given.value.is_none()) {
-        return 0;
-    }
-    const float value = to_float(given);
-    if (value == 0) {
-        given.refuse_value("is 0; it must be above 0, or None for the default");
-    }
-    return value;
-}
-
 lightband::Vector to_up(const Given& up) {
     if (up.value.is_none()) {
         return {0, 0, 0};
@@ -53,6 +41,14 @@ void set_environment(Scene& self, const Given& given) {
     const Environment& environment = From<const Environment&>::take(given);
     in_library([&] { self.handle.set_environment(environment.handle); });
     self.environment = given.value;
+}
+
+void add_light(Scene& self, const Sun& light) {
+    in_library([&] { self.handle.add_light(light.handle); });
+}
+
+void remove_light(Scene& self, const Sun& light) {
+    in_library([&] { self.handle.remove_light(light.handle); });
 }
 
 uint32_t add(Scene& self, const Mesh& mesh, const Brdf& brdf, const Given& transform, bool double_sided) {
@@ -96,9 +92,9 @@ void bind_scene(py::module_& module) {
         mesh, "__repr__(self)", +[](const Mesh* self) { return describe("Mesh", *self, self->description); },
         "Where the triangles come from.");
 
-    SceneClass scene(module, "Scene", R"(Meshes with their materials, one environment, one camera.
+    SceneClass scene(module, "Scene", R"(Meshes with their materials, one environment, other lights, one camera.
 
-Made by Context.scene. It needs an environment and a camera before it can be rendered; it may have no mesh.)",
+Made by Context.scene. It needs a camera before it can be rendered; it may have no mesh and no light, where it is black.)",
                      collectable<Scene>());
     refuse_construction(scene, "Context.scene makes one");
     bind_closing(scene);
@@ -111,6 +107,9 @@ double_sided: False: only the front of its triangles is drawn, from which their 
     wound outwards, seen from outside and not cut by the near plane nobody sees the back; about half of its
     triangles are then not drawn.
 The array frame.material holds the number plus one. At most 254 instances.)");
+    define(scene, "add_light(self, light)", &add_light,
+           "Adds a light, a Sun, to those of the scene: at most 1024, each once. The light from all of them and from the environment adds up.");
+    define(scene, "remove_light(self, light)", &remove_light, "Takes a light out of the scene again.");
     define(scene, "set_transform(self, index, transform)", &set_transform,
            "Replaces the transform of an instance.");
     define(scene, "set_double_sided(self, index, double_sided)", &set_double_sided,

@@ -6,8 +6,9 @@
  *     lb_context      one OpenGL device, owned by the library
  *     lb_brdf         a reflectance: measured (MERL), built in, or analytic
  *     lb_environment  distant light: a latitude-longitude map
+ *     lb_light        another light: a sun
  *     lb_mesh         triangles
- *     lb_scene        meshes with their materials, one environment, one camera
+ *     lb_scene        meshes with their materials, one environment, other lights, one camera
  *     lb_frame        a picture's size and settings; renders scenes, holds the fields
  *     lb_buffer       one field of a frame (or of a material, or of a map) as an array in memory
  *
@@ -74,7 +75,7 @@ typedef int32_t lb_result;
 #define LB_OK 0
 #define LB_ERROR_INVALID_ARGUMENT 1 /* an argument is NULL, not finite, out of range or of an unknown name */
 #define LB_ERROR_INVALID_HANDLE 2   /* the handle is NULL, was released, or names an object of another kind */
-#define LB_ERROR_INVALID_STATE 3    /* the call came too early (no camera, no environment, no frame rendered), from a callback,
+#define LB_ERROR_INVALID_STATE 3    /* the call came too early (no camera, no frame rendered), from a callback,
                                        in a fork or at the end of the process */
 #define LB_ERROR_FILE 4             /* a file cannot be opened, read, written or renamed */
 #define LB_ERROR_FORMAT 5           /* a file is not what it says: truncated, corrupt, out of limits */
@@ -96,6 +97,7 @@ LB_API const char* lb_error_message(void);
 typedef struct lb_context_handle* lb_context;
 typedef struct lb_brdf_handle* lb_brdf;
 typedef struct lb_environment_handle* lb_environment;
+typedef struct lb_light_handle* lb_light;
 typedef struct lb_mesh_handle* lb_mesh;
 typedef struct lb_scene_handle* lb_scene;
 typedef struct lb_frame_handle* lb_frame;
@@ -107,6 +109,8 @@ LB_API lb_result lb_brdf_retain(lb_brdf brdf);
 LB_API lb_result lb_brdf_release(lb_brdf brdf);
 LB_API lb_result lb_environment_retain(lb_environment environment);
 LB_API lb_result lb_environment_release(lb_environment environment);
+LB_API lb_result lb_light_retain(lb_light light);
+LB_API lb_result lb_light_release(lb_light light);
 LB_API lb_result lb_mesh_retain(lb_mesh mesh);
 LB_API lb_result lb_mesh_release(lb_mesh mesh);
 LB_API lb_result lb_scene_retain(lb_scene scene);
@@ -219,6 +223,27 @@ LB_API lb_result lb_environment_load(lb_context context, const char* path, lb_en
 LB_API lb_result lb_environment_create(lb_context context, uint32_t width, uint32_t height, const float* rgb,
                                        lb_environment* environment);
 
+/* ---- Suns --------------------------------------------------------------------------------------- */
+
+/* A disc of uniform radiance, infinitely far away. A surface that faces it receives its irradiance, which is
+ * the radiance of the disc times pi sin^2(angular_radius). */
+typedef struct lb_sun_desc {
+    uint32_t struct_size;
+    float direction[3];   /* towards the sun, in world space; of any length but zero */
+    float angular_radius; /* radians, 1e-4 .. pi / 2; zero: 0.004652, that of the sun seen from the earth */
+    float irradiance[3];  /* RGB, in units of radiance times steradian (W/m^2 where radiance is in W/(m^2 sr));
+                             not negative; the disc's radiance is at most 1e15 */
+} lb_sun_desc;
+
+#define LB_SUN_DESC_INIT { sizeof(lb_sun_desc), {0, 0, 0}, 0, {0, 0, 0} }
+
+/* LB_ERROR_INVALID_ARGUMENT: a field is not finite or out of range; the message names it, its value and the limit. */
+LB_API lb_result lb_sun_create(lb_context context, const lb_sun_desc* desc, lb_light* light);
+
+/* Moves and changes a sun; scenes that it is in show it when they are rendered next. Nothing is allocated.
+ * LB_ERROR_INVALID_HANDLE: light is not a sun. On any failure it stays as it was. */
+LB_API lb_result lb_sun_set(lb_light light, const lb_sun_desc* desc);
+
 /* ---- Mesh --------------------------------------------------------------------------------------- */
 
 typedef struct lb_mesh_desc {
@@ -271,10 +296,16 @@ typedef struct lb_camera_desc {
 
 #define LB_CAMERA_DESC_INIT { sizeof(lb_camera_desc), {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0, 0 }
 
-/* An empty scene. It needs an environment and a camera before it can be rendered; it may have no mesh. Environment, camera and
+/* An empty scene. It needs a camera before it can be rendered; it may have no mesh and no light, where it is black. Environment, camera and
  * transforms may change between renders of one frame, as in an animation; instances stay, with their mesh and material. */
 LB_API lb_result lb_scene_create(lb_context context, lb_scene* scene);
 LB_API lb_result lb_scene_set_environment(lb_scene scene, lb_environment environment);
+/* Other lights, at most 1024, each once. The light from all of them and from the environment adds up.
+ * LB_ERROR_INVALID_ARGUMENT: the light is in the scene already, belongs to another context, or (of remove) is not
+ * in the scene. */
+LB_API lb_result lb_scene_add_light(lb_scene scene, lb_light light);
+LB_API lb_result lb_scene_remove_light(lb_scene scene, lb_light light);
+
 LB_API lb_result lb_scene_set_camera(lb_scene scene, const lb_camera_desc* camera);
 
 /* Adds a mesh with its material. transform: 12 floats, three rows of an affine 3x4 matrix (object to world),
@@ -339,7 +370,7 @@ LB_API lb_result lb_setting_at(uint32_t index, lb_setting_info* info);
 typedef int32_t (*lb_progress_callback)(void* user, double fraction);
 
 /* Renders. On any failure the frame keeps its former result.
- * LB_ERROR_INVALID_STATE: the scene has no camera or no environment, or "accumulate" is above 1 where an error or a time is asked
+ * LB_ERROR_INVALID_STATE: the scene has no camera, or "accumulate" is above 1 where an error or a time is asked
  * for, or a callback called; LB_ERROR_INVALID_ARGUMENT: the scene is of another context; LB_ERROR_CANCELLED; LB_ERROR_LIMIT. */
 LB_API lb_result lb_frame_render(lb_frame frame, lb_scene scene, lb_progress_callback progress, void* user);
 

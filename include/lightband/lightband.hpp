@@ -220,6 +220,32 @@ public:
     Buffer map(const std::string& name) const { return map_field(lb_environment_map, get(), name, log()); }
 };
 
+// A sun; lb_sun_desc says what the fields mean.
+struct Sun {
+    Vector direction{};
+    Vector irradiance{};
+    float angular_radius = 0;  // zero: that of the sun seen from the earth
+};
+
+inline lb_sun_desc described(const Sun& sun) {
+    const Vector &direction = sun.direction, &irradiance = sun.irradiance;
+    return {sizeof(lb_sun_desc),
+            {direction[0], direction[1], direction[2]},
+            sun.angular_radius,
+            {irradiance[0], irradiance[1], irradiance[2]}};
+}
+
+// Other lights: made by Context::sun.
+class Light : public Handle<lb_light, lb_light_retain, lb_light_release> {
+public:
+    using Handle::Handle;
+
+    void set(const Sun& sun) const {
+        const lb_sun_desc desc = described(sun);
+        check(lb_sun_set(get(), &desc));
+    }
+};
+
 // Triangles: made by Context::mesh and builtin_mesh.
 class Mesh : public Handle<lb_mesh, lb_mesh_retain, lb_mesh_release> {
 public:
@@ -247,6 +273,8 @@ public:
     using Handle::Handle;
 
     void set_environment(const Environment& environment) { check(lb_scene_set_environment(get(), environment.get())); }
+    void add_light(const Light& light) { check(lb_scene_add_light(get(), light.get())); }
+    void remove_light(const Light& light) { check(lb_scene_remove_light(get(), light.get())); }
     void set_camera(const Camera& camera) {
         const Vector &eye = camera.eye, &target = camera.target, &up = camera.up;
         const lb_camera_desc desc = {sizeof(lb_camera_desc),
@@ -398,6 +426,11 @@ public:
     // rgb: [height][width][3], radiance.
     Environment environment(uint32_t width, uint32_t height, const float* rgb) const {
         return make<Environment>(lb_environment_create, width, height, rgb);
+    }
+
+    Light sun(const Sun& sun) const {
+        const lb_sun_desc desc = described(sun);
+        return make<Light>(lb_sun_create, &desc);
     }
 
     Mesh mesh(const lb_mesh_desc& desc) const { return make<Mesh>(lb_mesh_create, &desc); }

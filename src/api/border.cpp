@@ -21,8 +21,12 @@ HandleTable<const Material>& materials() {
     static auto& table = *new HandleTable<const Material>("brdf", 2);
     return table;
 }
-HandleTable<const Light>& lights() {
-    static auto& table = *new HandleTable<const Light>("environment", 3);
+HandleTable<const EnvironmentLight>& environments() {
+    static auto& table = *new HandleTable<const EnvironmentLight>("environment", 3);
+    return table;
+}
+HandleTable<Light>& lights() {
+    static auto& table = *new HandleTable<Light>("light", 8);
     return table;
 }
 HandleTable<const Mesh>& meshes() {

@@ -12,6 +12,7 @@
 #include "frame/frame.h"
 #include "frame/host_array.h"
 #include "gl/device.h"
+#include "lights/environment.h"
 
 namespace lightband::api {
 
@@ -22,7 +23,8 @@ struct Context {
 
 HandleTable<Context>& contexts();
 HandleTable<const Material>& materials();
-HandleTable<const Light>& lights();
+HandleTable<const EnvironmentLight>& environments();
+HandleTable<Light>& lights();
 HandleTable<const Mesh>& meshes();
 HandleTable<Scene>& scenes();
 HandleTable<Frame>& frames();

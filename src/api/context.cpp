@@ -67,8 +67,10 @@ lb_result lb_context_retain(lb_context context) { return retain(contexts(), cont
 lb_result lb_context_release(lb_context context) { return release(contexts(), context); }
 lb_result lb_brdf_retain(lb_brdf brdf) { return retain(materials(), brdf); }
 lb_result lb_brdf_release(lb_brdf brdf) { return release(materials(), brdf); }
-lb_result lb_environment_retain(lb_environment environment) { return retain(lights(), environment); }
-lb_result lb_environment_release(lb_environment environment) { return release(lights(), environment); }
+lb_result lb_environment_retain(lb_environment environment) { return retain(environments(), environment); }
+lb_result lb_environment_release(lb_environment environment) { return release(environments(), environment); }
+lb_result lb_light_retain(lb_light light) { return retain(lights(), light); }
+lb_result lb_light_release(lb_light light) { return release(lights(), light); }
 lb_result lb_mesh_retain(lb_mesh mesh) { return retain(meshes(), mesh); }
 lb_result lb_mesh_release(lb_mesh mesh) { return release(meshes(), mesh); }
 lb_result lb_scene_retain(lb_scene scene) { return retain(scenes(), scene); }

@@ -1,9 +1,10 @@
-// lb_brdf, lb_environment, lb_mesh and lb_scene.
+// lb_brdf, lb_environment, lb_light, lb_mesh and lb_scene.
 #include <algorithm>
 
 #include "api/border.h"
 #include "io/image_file.h"
 #include "io/merl.h"
+#include "lights/sun.h"
 #include "materials/builtin_materials.h"
 #include "materials/builtin_models.h"
 #include "scene/unmeasured_cells.h"
@@ -57,8 +58,8 @@ lb_result create_environment(lb_context context, lb_environment* environment, Re
         require(environment, "environment");
         const auto owner = contexts().get(context, "context");
         RgbImage map = read(*owner);
-        auto light = owner->device->run([&] { return make<const Light>(owner->device, std::move(map)); });
-        give<lb_environment>(lights(), std::move(light), environment);
+        auto light = owner->device->run([&] { return make<const EnvironmentLight>(owner->device, std::move(map)); });
+        give<lb_environment>(environments(), std::move(light), environment);
     });
 }
 
@@ -78,7 +79,7 @@ void require_same_device(const Scene& scene, const Object& object, const char* n
         throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, " belongs to another context than scene"));
 }
 
-HostArray environment_field(const Light& light, const std::string& name) {
+HostArray environment_field(const EnvironmentLight& light, const std::string& name) {
     const RgbImage& map = light.map();
     if (name == "radiance") return HostArray::of(LB_TYPE_FLOAT32, {map.height, map.width, 3}, "radiance", map.rgb);
     if (name != "bandwidth")
@@ -215,7 +216,7 @@ lb_result lb_environment_create(lb_context context, uint32_t width, uint32_t hei
 lb_result lb_environment_map(lb_environment environment, const char* name, lb_buffer* buffer, lb_buffer_view* view) {
     return border([&] {
         require(name, "name");
-        const auto light = lights().get(environment, "environment");
+        const auto light = environments().get(environment, "environment");
         give_array(light->device()->run([&] { return environment_field(*light, name); }), buffer, view);
     });
 }
@@ -253,10 +254,48 @@ lb_result lb_scene_create(lb_context context, lb_scene* scene) {
 lb_result lb_scene_set_environment(lb_scene scene, lb_environment environment) {
     return border([&] {
         const auto target = scenes().get(scene, "scene");
-        const auto light = lights().get(environment, "environment");
+        const auto light = environments().get(environment, "environment");
         require_same_device(*target, *light, "environment");
         const auto locked = target->device()->lock();
-        target->light = light;
+        target->set_environment(light);
+    });
+}
+
+lb_result lb_sun_create(lb_context context, const lb_sun_desc* desc, lb_light* light) {
+    return border([&] {
+        require(light, "light");
+        const auto owner = contexts().get(context, "context");
+        const Sun sun = SunLight::from(read_struct(desc, "desc"));
+        give<lb_light>(lights(), std::shared_ptr<Light>(make<SunLight>(owner->device, sun)), light);
+    });
+}
+
+lb_result lb_sun_set(lb_light light, const lb_sun_desc* desc) {
+    return border([&] {
+        const auto target = std::dynamic_pointer_cast<SunLight>(lights().get(light, "light"));
+        if (target == nullptr) throw Error(LB_ERROR_INVALID_HANDLE, "light is not a sun");
+        const Sun sun = SunLight::from(read_struct(desc, "desc"));
+        const auto locked = target->device()->lock();
+        target->set(sun);
+    });
+}
+
+lb_result lb_scene_add_light(lb_scene scene, lb_light light) {
+    return border([&] {
+        const auto target = scenes().get(scene, "scene");
+        const auto added = lights().get(light, "light");
+        require_same_device(*target, *added, "light");
+        const auto locked = target->device()->lock();
+        target->add_light(added);
+    });
+}
+
+lb_result lb_scene_remove_light(lb_scene scene, lb_light light) {
+    return border([&] {
+        const auto target = scenes().get(scene, "scene");
+        const auto removed = lights().get(light, "light");
+        const auto locked = target->device()->lock();
+        target->remove_light(removed);
     });
 }
 

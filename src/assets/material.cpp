@@ -90,6 +90,17 @@ void Material::bind_importance() const {
     device_->gl().BindTextureUnit(12, importance_texture_.name());
 }
 
+void Material::bind_bandwidth(BandRule rule) const {
+    if (!bandwidth_ || bandwidth_rule_ != rule) {
+        const std::vector<float>& values = bandwidth(rule).values;
+        gl::Buffer made(device_->gl(), values.size() * sizeof(float), values.data());
+        bandwidth_texture_ = gl::Texture::of_buffer(device_->gl(), GL_R32F, made);
+        bandwidth_ = std::move(made);
+        bandwidth_rule_ = rule;
+    }
+    device_->gl().BindTextureUnit(6, bandwidth_texture_.name());
+}
+
 const LobeBandwidth& Material::bandwidth(BandRule rule) const {
     auto found = bandwidths_.find(rule);
     if (found == bandwidths_.end()) found = bandwidths_.emplace(rule, lobe_bandwidth(brdf_, rule)).first;

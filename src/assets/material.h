@@ -29,10 +29,14 @@ public:
     // What the map's clusters and the trunk of its tree are weighed by (src/sampling/lobe_sampler.h), made when first asked for.
     void bind_importance() const;
 
+    // The same for what predicts_by_lobe asks for (src/lights/light.h).
+    void bind_bandwidth(BandRule rule) const;
+
     const LobeBandwidth& bandwidth(BandRule rule) const;
     const std::vector<Pilot>& pilots(BandRule rule, uint32_t count) const;
     size_t device_bytes() const {
-        return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes() + lobe_denser_.bytes() + importance_.bytes();
+        return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes() + lobe_denser_.bytes() + importance_.bytes() +
+               bandwidth_.bytes();
     }
 
 private:
@@ -44,8 +48,9 @@ private:
     float table_scale_ = 1;
     gl::Buffer cells_, lobe_x_, lobe_phi_, lobe_albedo_, lobe_denser_;
     gl::Texture cells_texture_, lobe_x_texture_, lobe_phi_texture_, lobe_albedo_texture_, lobe_denser_texture_;
-    mutable gl::Buffer importance_;
-    mutable gl::Texture importance_texture_;
+    mutable gl::Buffer importance_, bandwidth_;
+    mutable gl::Texture importance_texture_, bandwidth_texture_;
+    mutable BandRule bandwidth_rule_{};  // of the one on the device
     mutable std::map<BandRule, LobeBandwidth> bandwidths_;
     mutable std::map<std::pair<BandRule, uint32_t>, std::vector<Pilot>> pilots_;
 };

@@ -39,6 +39,27 @@ Instance& Scene::instance(uint32_t index) {
     return instances_[index];
 }
 
+std::vector<std::shared_ptr<const Light>> Scene::lights() const {
+    std::vector<std::shared_ptr<const Light>> all;
+    if (environment_) all.push_back(environment_);
+    all.insert(all.end(), lights_.begin(), lights_.end());
+    return all;
+}
+
+void Scene::add_light(std::shared_ptr<const Light> light) {
+    if (std::find(lights_.begin(), lights_.end(), light) != lights_.end())
+        throw Error(LB_ERROR_INVALID_ARGUMENT, "light is in the scene already");
+    if (lights_.size() == most_lights)
+        throw Error(LB_ERROR_LIMIT, text("the scene holds ", most_lights, " lights already, its limit"));
+    lights_.push_back(std::move(light));
+}
+
+void Scene::remove_light(const std::shared_ptr<const Light>& light) {
+    const auto found = std::find(lights_.begin(), lights_.end(), light);
+    if (found == lights_.end()) throw Error(LB_ERROR_INVALID_ARGUMENT, "light is not in the scene");
+    lights_.erase(found);
+}
+
 Scene::Slots Scene::slots() const {
     Slots slots;
     for (const Instance& instance : instances_) {
@@ -49,9 +70,15 @@ Scene::Slots Scene::slots() const {
     return slots;
 }
 
+size_t Scene::light_bytes() const {
+    size_t bytes = 0;
+    for (const auto& light : lights()) bytes += light->device_bytes();
+    return bytes;
+}
+
 size_t Scene::device_bytes() const {
     std::set<const Mesh*> meshes;
-    size_t bytes = light ? light->device_bytes() : 0;
+    size_t bytes = light_bytes();
     for (const Instance& instance : instances_)
         if (meshes.insert(instance.mesh.get()).second) bytes += instance.mesh->device_bytes();
     for (const Material* material : slots().materials) bytes += material->device_bytes();

@@ -1,13 +1,13 @@
-// Meshes with their materials, one environment, one camera.
+// Meshes with their materials, lights, one camera.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "assets/light.h"
 #include "assets/material.h"
 #include "assets/mesh.h"
+#include "lights/light.h"
 #include "scene/camera.h"
 
 namespace lightband {
@@ -36,7 +36,14 @@ public:
     uint32_t add(Instance instance);
     Instance& instance(uint32_t index);  // throws where there is none
 
-    std::shared_ptr<const Light> light;
+    // The environment is the one light of which there is one at most: it takes the place of the former one.
+    void set_environment(std::shared_ptr<const Light> environment) { environment_ = std::move(environment); }
+    // Other lights, any number: each once. Throws where a light is there already, or is not there to be removed.
+    static constexpr size_t most_lights = 1024;
+    void add_light(std::shared_ptr<const Light> light);
+    void remove_light(const std::shared_ptr<const Light>& light);
+    std::vector<std::shared_ptr<const Light>> lights() const;  // the environment first
+
     std::optional<Camera> camera;
     const std::vector<Instance>& instances() const { return instances_; }
 
@@ -46,11 +53,14 @@ public:
         std::vector<uint32_t> of_instance;
     };
     Slots slots() const;
+    size_t light_bytes() const;  // on the device, of its lights
     size_t device_bytes() const;
 
 private:
     gl::DevicePtr device_;
     std::vector<Instance> instances_;
+    std::shared_ptr<const Light> environment_;
+    std::vector<std::shared_ptr<const Light>> lights_;  // the others
 };
 
 }  // namespace lightband

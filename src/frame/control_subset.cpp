@@ -46,7 +46,7 @@ std::vector<ControlSet::Pixel> ControlSubset::shade_alike(const std::vector<uint
     for (const uint32_t at : pixels) of_slot[slot_of(at)].push_back(at / result.width << 16 | at % result.width);
     const passes::ShadingList list = passes::even_list(run_.device, of_slot, samples);
     run_.meter.begin();
-    passes::shade(run_.device, run_.scene, run_.slots, settings, {seed, seed}, list, result.gbuffer, result.shading, [&](uint64_t done) {
+    passes::shade(run_.device, run_.lights, run_.slots, settings, {seed, seed}, list, result.gbuffer, result.shading, [&](uint64_t done) {
         const double all = double(list.total_samples);
         run_.meter.report(run_.meter.left(double(done), all, all / run_.throughput.samples_per_millisecond) + run_.expected);
     });

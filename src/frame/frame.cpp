@@ -14,7 +14,6 @@ Frame::Frame(gl::DevicePtr device, uint32_t width, uint32_t height)
 
 void Frame::check(const Scene& scene) const {
     if (scene.device() != device_) throw Error(LB_ERROR_INVALID_ARGUMENT, "scene belongs to another context than frame");
-    if (!scene.light) throw Error(LB_ERROR_INVALID_STATE, "the scene has no environment");
     if (!scene.camera) throw Error(LB_ERROR_INVALID_STATE, "the scene has no camera");
     const bool controlled = settings.target_error() > 0 || settings.time_budget() > 0;
     if (controlled && settings.accumulate() > 1)
@@ -32,7 +31,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
 
 std::string Frame::plan(const Scene& scene) const {
     check(scene);
-    return Plan(settings, {width_, height_, scene.instances().size(), scene.slots().materials.size()}).text();
+    return Plan(settings, {width_, height_, scene.instances().size(), scene.slots().materials.size(), scene.lights().size()}).text();
 }
 
 const FrameResult& Frame::result() const {

@@ -35,13 +35,16 @@ std::vector<PlannedPass> planned_passes(const Settings& settings, const PlanInpu
     std::vector<PlannedPass> passes;
     passes.push_back({"gbuffer", text(input.instances, " instances, rasterised"), "", {}, {"surface", "material", "depth"}});
     passes.push_back({"covered", "list of the pixels that see a mesh", "", {"material"}, {"covered"}});
-    if (adaptive) {
-        passes.push_back({"environment", "bandwidth of the map and of the lobes, tables of the sampler; made once for each map and material",
-                          variant_of(settings, {"band_rule", "sampler"}), {}, {}});
-        passes.push_back({"bandwidth", text("equations 5, 6 and 9 with ", settings.pilots(), " directions a pixel"),
+    const bool lit = input.lights > 0;  // else the picture is black
+    if (adaptive && lit)
+        passes.push_back({"environment", "bandwidth of lights and lobes, tables of the sampler; made once for each light and material",
+                          variant_of(settings, {"band_rule", "sampler", "split_suns"}), {}, {}});
+    if (adaptive)
+        passes.push_back({"bandwidth",
+                          lit ? text("equations 5, 6 and 9 with ", settings.pilots(), " directions a pixel") : "curvature alone: there is no light",
                           variant_of(settings, {"transport", "variance", "sampler"}), {"surface", "material", "covered"},
                           {"bandwidth", "prediction"}});
-    }
+    if (!lit) return passes;
     if (adaptive && biased)
         passes.push_back(shading("control", "some pixels with four times the samples, which tell how much the others err", settings));
     if (target || (adaptive && settings.sampler() == Sampler::cut && !(settings.time_budget() > 0)))
@@ -75,7 +78,7 @@ std::vector<PlannedPass> planned_passes(const Settings& settings, const PlanInpu
         passes.push_back({"combine", "shaded pixels joined with what is interpolated there", "",
                           {"covered", "decision", "weights", "sample_count", "radiance"}, {"radiance"}});
     if (settings.background())
-        passes.push_back({"background", "the map behind the meshes", variant_of(settings, {"environment_lookup"}), {"material"}, {"radiance"}});
+        passes.push_back({"background", "the lights behind the meshes", variant_of(settings, {"environment_lookup"}), {"material"}, {"radiance"}});
     return passes;
 }
 

@@ -14,7 +14,7 @@ namespace lightband {
 // What a plan needs to know of a scene, and of the picture that is made of it.
 struct PlanInput {
     uint32_t width, height;
-    size_t instances, materials;
+    size_t instances, materials, lights;
 };
 
 struct PlannedPass {

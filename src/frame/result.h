@@ -24,7 +24,7 @@ struct FrameResult {
     const Plan plan;
     Record record;
     Vec3 eye{0};
-    double radiance_unit = 1;  // of what shaders wrote: Light::unit()
+    double radiance_unit = 1;  // of what shaders wrote: Lights::unit()
     GBuffer gbuffer;
     std::optional<Prediction> prediction;
     Shading shading;

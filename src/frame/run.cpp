@@ -38,7 +38,7 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
 }
 
 PlanInput plan_input(const Scene& scene, const Scene::Slots& slots, uint32_t width, uint32_t height) {
-    return {width, height, scene.instances().size(), slots.materials.size()};
+    return {width, height, scene.instances().size(), slots.materials.size(), scene.lights().size()};
 }
 
 }  // namespace
@@ -64,7 +64,8 @@ const Run::NamedPass Run::passes_by_name[] = {
 
 Run::Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Throughput& throughput,
          const Progress& progress)
-    : state_{device, scene, settings, settings, Meter(progress), scene.slots(), passes::slot_table(device.gl(), scene.slots()), throughput,
+    : state_{device, scene, settings, settings, Meter(progress), scene.slots(), passes::slot_table(device.gl(), scene.slots()),
+             Lights(scene.lights(), settings), throughput,
              std::make_shared<FrameResult>(device.gl(), settings, width, height,
                                            Plan(settings, plan_input(scene, scene.slots(), width, height)))} {
 #if defined(LIGHTBAND_STUDY)
@@ -73,7 +74,7 @@ Run::Run(gl::Device& device, const Scene& scene, const Settings& settings, uint3
     next().stats.width = width;
     next().stats.height = height;
     next().eye = scene.camera->eye;
-    next().radiance_unit = scene.light->unit();
+    next().radiance_unit = state_.lights.unit();
     next().slot_of = state_.slots.of_instance;
     next().slots = state_.slots.materials.size();
 }
@@ -98,10 +99,14 @@ void Run::execute() {
     state_.forecast.covered = state_.covered.all.count;
     pass("environment");
     pass("bandwidth");
-    examine_control_subset();
-    // Rounds end at once where the sampler is replaced, and are planned again for the other.
-    while (!rounds()) subset_.tell(&state_.forecast);
-    accumulate();
+    if (state_.lights.empty()) {
+        stay_black();
+    } else {
+        examine_control_subset();
+        // Rounds end at once where the sampler is replaced, and are planned again for the other.
+        while (!rounds()) subset_.tell(&state_.forecast);
+        accumulate();
+    }
     pass("background");
     state_.device.check("rendering a frame");
     finish();
@@ -124,24 +129,37 @@ Done Run::list_covered() {
 // What was already made for another frame takes no time.
 Done Run::make_tables() {
     const Settings& settings = state_.asked;
-    state_.scene.light->bandwidth(settings.band_rule());
-    report_preparation();
     for (const Material* material : state_.slots.materials) {
         material->pilots(settings.band_rule(), settings.pilots());
         report_preparation();
     }
-    if (state_.covered.all.count > 0) passes::make_tables(state_.scene, state_.slots, settings, settings.seed());
+    const bool shades = state_.covered.all.count > 0;
+    state_.lights.prepare(settings, settings.seed(), shades, [this] { report_preparation(); });
+    for (const Material* material : state_.slots.materials) {
+        if (shades && state_.lights.needs_importance(settings)) material->bind_importance();
+        if (state_.lights.predicts_by_lobe()) material->bind_bandwidth(settings.band_rule());
+    }
     report_preparation();
-    return {state_.slots.materials.size(), "materials", text(two_decimals(double(state_.scene.light->device_bytes()) / 1e6), " MB held by the map")};
+    const size_t split = state_.lights.split();
+    return {state_.slots.materials.size(), "materials", 
+            text(two_decimals(double(state_.scene.light_bytes()) / 1e6), " MB held by lights",
+                 split > 0 ? text(", ", split, " suns split off the map") : "")};
 }
 
 Done Run::predict() {
     const Prediction& prediction = next().prediction.emplace(state_.device.gl(), next().width, next().height);
-    passes::predict(state_.device, state_.scene, state_.slots, state_.slot_of, state_.asked, next().height, state_.covered, next().gbuffer,
+    passes::predict(state_.device, state_.scene, state_.lights, state_.slots, state_.slot_of, state_.asked, next().height, state_.covered, next().gbuffer,
                     prediction);
     state_.forecast = passes::forecast(state_.device, state_.covered, prediction, next().height);
     next().mean_radiance = state_.forecast.mean_radiance;
     return {state_.covered.all.count};
+}
+
+// A scene without light: no pixel needs a sample, and nothing errs.
+void Run::stay_black() {
+    next().shading.clear(state_.device.gl());
+    next().shading.decide_nothing(state_.device.gl());
+    next().estimate.slots.resize(next().slots);
 }
 
 void Run::examine_control_subset() {
@@ -168,9 +186,8 @@ Done Run::make_levels() {
 Done Run::classify() {
     const Prediction* prediction = next().prediction ? &*next().prediction : nullptr;
     const bool interpolates = prediction != nullptr && prediction->pyramids;
-    const std::vector<Lamp> none;
     const passes::Criteria criteria{state_.settings,
-                                    interpolates ? state_.scene.light->lamps() : none,
+                                    state_.lights,
                                     {control_->validation_part(), subset_.part(), state_.asked.seed(), next().stats.rounds},
                                     control_->tolerance(),
                                     resampling_.bins,
@@ -189,7 +206,7 @@ Done Run::shade() {
     const auto report = [&](uint64_t samples) { report_shading(double(samples)); };
     state_.meter.begin();
     report(0);
-    passes::shade(state_.device, state_.scene, state_.slots, state_.settings, seeds_, list_, next().gbuffer, next().shading, report);
+    passes::shade(state_.device, state_.lights, state_.slots, state_.settings, seeds_, list_, next().gbuffer, next().shading, report);
     return {list_.total_samples, "samples", text(list_.pixels, " pixels")};
 }
 
@@ -314,8 +331,7 @@ Done Run::combine() {
 }
 
 Done Run::background() {
-    passes::background(state_.device, state_.scene, next().width, next().height, next().gbuffer, state_.asked.environment_lookup(),
-                       next().shading);
+    passes::background(state_.device, state_.lights, state_.asked, next().width, next().height, next().gbuffer, next().shading);
     return {next().pixels()};
 }
 
@@ -349,7 +365,7 @@ void Run::finish() {
     stats.covered_pixels = state_.covered.all.count;
     const Histogram bins = counts_.bins();
     stats.shaded_pixels = list_.pixels;
-    if (state_.asked.method() == Method::adaptive)
+    if (state_.asked.method() == Method::adaptive && !list_.samples.empty())
         for (uint32_t bin = 0; bin < budget_bins; ++bin)
             if (list_.samples[bin] >= state_.asked.max_samples()) stats.capped_pixels += bins[bin];
     stats.saturated_pixels = counts_.saturated;

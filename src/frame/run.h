@@ -43,6 +43,7 @@ private:
     Done combine();
     Done background();
 
+    void stay_black();
     void examine_control_subset();
     void begin_rounds();
     bool rounds();

@@ -7,6 +7,7 @@
 #include "frame/error_control.h"
 #include "frame/meter.h"
 #include "frame/result.h"
+#include "lights/kinds.h"
 #include "passes/covered.h"
 #include "passes/predict.h"
 
@@ -20,6 +21,7 @@ struct RunState {
     Meter meter;
     const Scene::Slots slots;
     const passes::SlotTable slot_of;
+    const Lights lights;
     Throughput throughput;                                  // of the device, as it was last measured
     const std::shared_ptr<FrameResult> result;
     passes::Covered covered{};

@@ -43,16 +43,16 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
-    const bool further = !previous_bins.empty();
-    const gl::Program& program = device.compute("classify", definitions(settings, prediction) + lamp_definitions(criteria.lamps) +
-                                                                (further ? "\nFURTHER_ROUND" : ""));
+    const bool further = !previous_bins.empty(), interpolates = prediction != nullptr && prediction->pyramids;
+    const gl::Program& program = device.compute("classify", text(definitions(settings, prediction), further ? "\nFURTHER_ROUND\n" : "\n",
+                                                                interpolates ? criteria.lights.definitions(LightPass::classify, settings) : ""));
     gl::Texture previous;
     if (further) {
         previous = gl::Texture::image(gl, GL_R8UI, width, uint32_t(previous_bins.size() / width));
         previous.upload(width, uint32_t(previous_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, previous_bins.data());
     }
     criteria.chosen.set(program);
-    set_lamps(program, criteria.lamps);
+    if (interpolates) criteria.lights.bind(LightPass::classify, settings, 0, program);
     program.use();
     bind_surfaces(gl, program, gbuffer);
     bind_texture(gl, 2, gbuffer.material);
@@ -63,7 +63,7 @@ Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, cons
         program.set("mean_radiance", float(forecast.mean_radiance));
         program.set("tolerance", float(criteria.tolerance));
     }
-    if (prediction != nullptr && prediction->pyramids) {
+    if (interpolates) {
         const Pyramids& pyramids = *prediction->pyramids;
         program.set("coarsest_level", int32_t(settings.coarsest_level()));
         program.set_array("pyramid_rows", pyramids.rows.data(), int32_t(pyramids.rows.size()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "assets/scene.h"
+#include "lights/kinds.h"
 #include "passes/predict.h"
 #include "passes/uniforms.h"
 #include "picture/budget.h"
@@ -18,12 +19,12 @@ struct Counts {
     Histogram new_bins() const;  // of what no former round shaded
 };
 
-// By what pixels are decided, beside what was predicted. lamps: across whose horizons nothing is interpolated. chosen: of those that
+// By what pixels are decided, beside what was predicted. lights: nothing is interpolated across the line where one sets. chosen: of those that
 // might be interpolated, which are shaded all the same. tolerance: shaders/contrast.glsl. previous_bins: of the pixels that former rounds
 // shaded; empty in the first. new_pixel_steps: how many bins the others lie above what prediction says, since those turned out to need more.
 struct Criteria {
     const Settings& settings;
-    const std::vector<Lamp>& lamps;
+    const Lights& lights;
     ChosenPixels chosen;
     double tolerance;
     const std::vector<uint8_t>& previous_bins;

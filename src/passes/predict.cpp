@@ -9,15 +9,11 @@
 namespace lightband::passes {
 namespace {
 
-std::string sampler_definition(Sampler sampler) {
-    if (sampler == Sampler::cut) return "\nSAMPLER_CUT";
-    return sampler == Sampler::combined ? text("\nSAMPLER_COMBINED\nMAP_WORTH ", map_sample_worth) : "";
-}
-
-// The pilots of every material in one table, slot by slot.
-gl::Buffer all_pilots(const gl::Functions& gl, const Scene::Slots& slots, const Settings& settings) {
+// The pilots of every material in one table, slot by slot; none where there is no light.
+gl::Buffer all_pilots(const gl::Functions& gl, const Scene::Slots& slots, const Settings& settings, bool any_light) {
     std::vector<Pilot> all;
     for (const Material* material : slots.materials) {
+        if (!any_light) break;
         const std::vector<Pilot>& own = material->pilots(settings.band_rule(), settings.pilots());
         all.insert(all.end(), own.begin(), own.end());
     }
@@ -54,35 +50,42 @@ SlotTable slot_table(const gl::Functions& gl, const Scene::Slots& slots) {
     return table;
 }
 
-void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const SlotTable& slot_of,
-             const Settings& settings, uint32_t height, const Covered& covered, const GBuffer& gbuffer, const Prediction& target) {
+void predict(gl::Device& device, const Scene& scene, const Lights& lights, const Scene::Slots& slots,
+             const SlotTable& slot_of, const Settings& settings, uint32_t height, const Covered& covered, const GBuffer& gbuffer, const Prediction& target) {
     const gl::Functions& gl = device.gl();
-    const EnvironmentBandwidth& light = scene.light->bandwidth(settings.band_rule());
-    const gl::Buffer pilots = all_pilots(gl, slots, settings);
+    const gl::Buffer pilots = all_pilots(gl, slots, settings, !lights.empty());
     const gl::Texture pilots_texture = gl::Texture::of_buffer(gl, GL_RGBA32F, pilots);
-    const gl::Program& program = device.compute(
-        "bandwidth", text("LOBE_VIEWS ", LobeTable::views,
-                          settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
-                          settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "",
-                          scene.light->hides_light() ? "\nHIDES_LIGHT" : "",
-                          sampler_definition(settings.sampler())));
-    program.set("map_density", float(1 / (4 * pi * scene.light->mean())));
-    program.set("pilot_count", int32_t(settings.pilots()));
-    program.set("radians_per_pixel", float(scene.camera->radians_per_pixel(height)));
-    program.set("footprint_level", float(std::log2(double(light.side) * light.side / (4 * pi))));
-    program.use();
-    bind_surfaces(gl, program, gbuffer);
-    bind_texture(gl, 2, gbuffer.material);
-    bind_texture(gl, 3, light.moments);
-    bind_texture(gl, 4, pilots_texture);
-    bind_texture(gl, 5, slot_of.texture);
-    bind_image(gl, 0, target.bandwidth, GL_RGBA32F);
-    bind_image(gl, 1, target.prediction, GL_RG32F);
     // Where nothing is seen, nothing arrives.
     const float zeros[4] = {0, 0, 0, 0};
     gl.ClearTexImage(target.bandwidth.name(), 0, GL_RGBA, GL_FLOAT, zeros);
     gl.ClearTexImage(target.prediction.name(), 0, GL_RG, GL_FLOAT, zeros);
-    dispatch_covered(gl, program, covered, covered.all);
+    const std::string definitions = text(settings.transport() == TransportForm::box ? "\nTRANSPORT_BOX" : "",
+                                         settings.variance() == Variance::printed ? "\nVARIANCE_PRINTED" : "", "\n",
+                                         lights.definitions(LightPass::predict, settings));
+    // Where lights ask for the lobe itself, one dispatch for each material.
+    const bool by_lobe = lights.predicts_by_lobe();
+    for (size_t slot = 0; slot < (by_lobe ? slots.materials.size() : 1); ++slot) {
+        const std::string lobe = by_lobe ? slots.materials[slot]->definitions(settings.brdf_lookup()) +
+                                               text("\nLOBE_BANDWIDTH_VIEWS ", LobeBandwidth::views, "\nLOBE_BANDWIDTH_SIDE ", LobeBandwidth::side)
+                                         : text("LOBE_VIEWS ", LobeTable::views);
+        const gl::Program& program = device.compute("bandwidth", lobe + "\n" + definitions);
+        program.set("pilot_count", int32_t(settings.pilots()));
+        program.set("radians_per_pixel", float(scene.camera->radians_per_pixel(height)));
+        program.use();
+        bind_surfaces(gl, program, gbuffer);
+        bind_texture(gl, 1, gbuffer.material);
+        bind_texture(gl, 7, pilots_texture);
+        lights.bind(LightPass::predict, settings, 0, program);
+        bind_texture(gl, 5, slot_of.texture);
+        bind_image(gl, 0, target.bandwidth, GL_RGBA32F);
+        bind_image(gl, 1, target.prediction, GL_RG32F);
+        if (by_lobe) {
+            program.set("slot", uint32_t(slot));
+            slots.materials[slot]->bind(program);
+            slots.materials[slot]->bind_bandwidth(settings.band_rule());
+        }
+        dispatch_covered(gl, program, covered, covered.all);
+    }
 }
 
 Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& prediction, uint32_t height) {

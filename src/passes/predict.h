@@ -2,6 +2,7 @@
 #pragma once
 
 #include "assets/scene.h"
+#include "lights/kinds.h"
 #include "passes/covered.h"
 #include "picture/forecast.h"
 #include "picture/settings.h"
@@ -18,8 +19,8 @@ struct SlotTable {
 SlotTable slot_table(const gl::Functions& gl, const Scene::Slots& slots);
 
 // Bandwidth and variance of every pixel (shaders/bandwidth.glsl).
-void predict(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const SlotTable& slot_of,
-             const Settings& settings, uint32_t height, const Covered& covered, const GBuffer& gbuffer, const Prediction& target);
+void predict(gl::Device& device, const Scene& scene, const Lights& lights, const Scene::Slots& slots,
+             const SlotTable& slot_of, const Settings& settings, uint32_t height, const Covered& covered, const GBuffer& gbuffer, const Prediction& target);
 
 Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& prediction, uint32_t height);
 

@@ -15,14 +15,11 @@ struct Seeds {
     uint32_t samples, map_points;
 };
 
-// Makes what the sampler reads of the map and of each material, where it is not there yet: so that no pass pays for it that happens to
-// come first.
-void make_tables(const Scene& scene, const Scene::Slots& slots, const Settings& settings, uint32_t map_points_seed);
-
-void shade(gl::Device& device, const Scene& scene, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
+void shade(gl::Device& device, const Lights& lights, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
            const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn);
 
-void background(gl::Device& device, const Scene& scene, uint32_t width, uint32_t height, const GBuffer& gbuffer,
-                Lookup lookup, const Shading& target);
+// What pixels that see no mesh show of the lights.
+void background(gl::Device& device, const Lights& lights, const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer,
+                const Shading& target);
 
 }  // namespace lightband::passes

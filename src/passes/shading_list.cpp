@@ -16,20 +16,20 @@ void visit_bins(Visit visit) {
 
 }  // namespace
 
-uint32_t ShadingList::Part::rounds() const { return (runs.front().samples + part_samples - 1) / part_samples; }
+uint32_t ShadingList::Part::rounds(uint32_t each) const { return (runs.front().samples + each - 1) / each; }
 
-uint32_t ShadingList::Part::pixels(uint32_t round) const {
+uint32_t ShadingList::Part::pixels(uint32_t round, uint32_t each) const {
     uint32_t result = 0;
     for (const Run& run : runs)
-        if (run.samples > round * part_samples) result += run.pixels;
+        if (run.samples > round * each) result += run.pixels;
     return result;
 }
 
-uint64_t ShadingList::Part::samples(uint32_t round, uint32_t first_pixels) const {
+uint64_t ShadingList::Part::samples(uint32_t round, uint32_t first_pixels, uint32_t each) const {
     uint64_t result = 0;
     for (const Run& run : runs) {
-        const uint32_t own = std::min(run.pixels, first_pixels), had = std::min(run.samples, round * part_samples);
-        result += uint64_t(own) * std::min(run.samples - had, part_samples);
+        const uint32_t own = std::min(run.pixels, first_pixels), had = std::min(run.samples, round * each);
+        result += uint64_t(own) * std::min(run.samples - had, each);
         first_pixels -= own;
     }
     return result;

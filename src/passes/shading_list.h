@@ -16,18 +16,24 @@ struct ShadingList {
     struct Part {
         uint32_t slot, first;          // entries of one material
         std::vector<Run> runs;         // in their order, by falling samples
-        uint32_t rounds() const;       // dispatches that its longest pixels need
-        uint32_t pixels(uint32_t round) const;                           // that have samples left in it
-        uint64_t samples(uint32_t round, uint32_t first_pixels) const;   // that so many of them draw in it
+        // each: samples that a pixel takes in one dispatch, a round of them.
+        uint32_t rounds(uint32_t each) const;                                           // that its longest pixels need
+        uint32_t pixels(uint32_t round, uint32_t each) const;                           // that have samples left in it
+        uint64_t samples(uint32_t round, uint32_t first_pixels, uint32_t each) const;   // that so many of them take in it
     };
     std::vector<Part> parts;
     uint64_t pixels = 0;               // all that are shaded, those of former rounds included
     uint64_t total_samples = 0;        // at most; what former rounds drew is not taken off
 };
 
-// Samples that one invocation draws in one dispatch. A software renderer may end loops after 65,535 iterations (counting inner
-// loops, which the shading loop has not more than eight of; a cut looks at 64 x 511 parts at most).
-constexpr uint32_t part_samples = 4096;
+// Samples that one invocation takes in one dispatch at most. A software renderer may end loops after 65,535 iterations (counting inner
+// loops, of which the shading loop has not more than eight, and those of the lights; a cut looks at 64 x 511 parts at most).
+constexpr uint32_t part_samples = 4096, most_iterations = 65535;
+inline uint32_t part_samples_beside(uint32_t loops_of_lights) {
+    uint32_t samples = part_samples;
+    while (samples > 2 && samples * (8 + loops_of_lights) > most_iterations) samples /= 2;
+    return samples;
+}
 
 // Pixels (y << 16 | x) of each slot, all with the same number of samples; it needs no decisions.
 ShadingList even_list(gl::Device& device, const std::vector<std::vector<uint32_t>>& pixels_of_slot, uint32_t samples);

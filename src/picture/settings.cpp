@@ -31,7 +31,7 @@ enum Place {
     place_method, place_target_error, place_time_budget, place_samples, place_max_samples, place_bandwidth_scale,
     place_coarsest_level, place_pilots,
     place_transport, place_band_rule, place_variance, place_allocation, place_sampler, place_sequence, place_brdf_lookup,
-    place_environment_lookup, place_background, place_seed, place_accumulate, place_pass_times, place_count
+    place_environment_lookup, place_split_suns, place_background, place_seed, place_accumulate, place_pass_times, place_count
 };
 
 const lb_setting_info table[] = {
@@ -78,6 +78,11 @@ const lb_setting_info table[] = {
               "Points of an adaptive frame: a lattice that each pixel shifts, or random numbers. A reference is always random."),
     choice_of("brdf_lookup", "nearest|linear", "nearest", "Lookup in a tabulated BRDF."),
     choice_of("environment_lookup", "linear|nearest", "linear", "Lookup in the environment's map."),
+    choice_of("split_suns", "on|off", "on",
+              "on: small bright sources of the environment's map, as the sun, are taken out of it and become suns of the same flux, mean "
+              "direction and width: at most eight, of up to 0.02 radians around the brightest texels, that bring at least half of the "
+              "light that comes from none; what fills more than 0.1 radians stays. off: they stay texels of the map, exactly as it is "
+              "interpolated; samples meet them more rarely, and beside the brightest ones the rest of the map is known less well."),
     choice_of("background", "none|environment", "none", "What pixels that see no mesh show."),
     integer("seed", 0, 4294967295.0, 0, "Frames with different seeds are independent; equal seeds give equal frames."),
     integer("accumulate", 1, 1 << 20, 1,
@@ -183,6 +188,7 @@ Lookup Settings::brdf_lookup() const { return values_[place_brdf_lookup] == 0 ? 
 Lookup Settings::environment_lookup() const {
     return values_[place_environment_lookup] == 0 ? Lookup::linear : Lookup::nearest;
 }
+bool Settings::split_suns() const { return values_[place_split_suns] == 0; }
 double Settings::target_error() const { return values_[place_target_error]; }
 double Settings::time_budget() const { return values_[place_time_budget]; }
 uint32_t Settings::samples() const { return uint32_t(values_[place_samples]); }

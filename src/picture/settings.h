@@ -41,6 +41,7 @@ public:
     bool shares_follow_variance() const;  // or all pixels of one spacing have alike, as errs least under a cut (docs/decisions/0009)
     Lookup brdf_lookup() const;
     Lookup environment_lookup() const;
+    bool split_suns() const;
     double target_error() const;  // 0: none
     double time_budget() const;   // milliseconds; 0: none
     uint32_t samples() const;

@@ -42,6 +42,10 @@ void Shading::forget(const gl::Functions& gl) const {
     gl.ClearTexImage(sample_count.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
 }
 
+void Shading::decide_nothing(const gl::Functions& gl) const {
+    gl.ClearTexImage(decision.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+}
+
 void Shading::decide_all(const gl::Functions& gl) const {
     gl.ClearTexImage(decision.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &first_bin);
 }

@@ -54,6 +54,7 @@ struct Shading {
     Shading(const gl::Functions& gl, uint32_t width, uint32_t height);
     void clear(const gl::Functions& gl) const;   // nothing shaded yet
     void forget(const gl::Functions& gl) const;  // how often: what is shaded anew is no continuation
+    void decide_nothing(const gl::Functions& gl) const;  // no pixel is shaded or interpolated
     void decide_all(const gl::Functions& gl) const;  // every pixel to be shaded, with the samples of the first bin
     size_t bytes() const { return radiance.bytes() + spread.bytes() + sample_count.bytes() + decision.bytes(); }
 };

@@ -4,12 +4,13 @@
 
 #include "support.h"
 
-enum kind { CONTEXT, BRDF, ENVIRONMENT, MESH, SCENE, FRAME, BUFFER, KINDS };
+enum kind { CONTEXT, BRDF, ENVIRONMENT, LIGHT, MESH, SCENE, FRAME, BUFFER, KINDS };
 
 /* Where the calls below leave their results: on a failure it must stay as it was. */
 static struct outputs {
     lb_brdf brdf;
     lb_environment environment;
+    lb_light light;
     lb_mesh mesh;
     lb_scene scene;
     lb_frame frame;
@@ -30,6 +31,7 @@ static const float identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 static const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 static const uint32_t corners[3] = {0, 1, 2};
 static const lb_mesh_desc mesh_desc = {sizeof(lb_mesh_desc), 3, triangle, NULL, NULL, corners, 1};
+static const lb_sun_desc sun_desc = {sizeof(lb_sun_desc), {0, 1, 0}, 0, {1, 1, 1}};
 static const lb_camera_desc camera = {sizeof(lb_camera_desc), {0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 0, 0, 0};
 
 /* The calls, all arguments but the handle valid. */
@@ -49,6 +51,7 @@ CALL(lb_brdf_create_lambert, (handle, grey, &out.brdf))
 CALL(lb_brdf_create_ggx, (handle, 0.5f, grey, &out.brdf))
 CALL(lb_environment_load, (handle, LIGHTBAND_TEST_MAP, &out.environment))
 CALL(lb_environment_create, (handle, 1, 1, grey, &out.environment))
+CALL(lb_sun_create, (handle, &sun_desc, &out.light))
 CALL(lb_mesh_create, (handle, &mesh_desc, &out.mesh))
 CALL(lb_mesh_builtin, (handle, "plane", 8, &out.mesh))
 CALL(lb_scene_create, (handle, &out.scene))
@@ -59,10 +62,14 @@ CALL(lb_brdf_albedo, (handle, 0.5f, out.rgb))
 CALL(lb_brdf_map, (handle, "bandwidth", &out.buffer, &out.view))
 CALL(lb_environment_retain, (handle))
 CALL(lb_environment_map, (handle, "radiance", &out.buffer, &out.view))
+CALL(lb_light_retain, (handle))
+CALL(lb_sun_set, (handle, &sun_desc))
 CALL(lb_mesh_retain, (handle))
 CALL(lb_mesh_info, (handle, &out.mesh_stats))
 CALL(lb_scene_retain, (handle))
 CALL(lb_scene_set_environment, (handle, world.environment))
+CALL(lb_scene_add_light, (handle, NULL))
+CALL(lb_scene_remove_light, (handle, NULL))
 CALL(lb_scene_set_camera, (handle, &camera))
 CALL(lb_scene_add, (handle, world.mesh, world.brdf, NULL, &out.index))
 CALL(lb_scene_set_transform, (handle, 0, identity))
@@ -81,6 +88,12 @@ CALL(lb_frame_save, (handle, "never_written.exr", NULL))
 CALL(lb_buffer_retain, (handle))
 
 /* Handles that are not the first argument. */
+static lb_result light_of_a_scene(void* handle) {
+    return lb_scene_add_light(world.scene, handle);
+}
+static lb_result light_taken_from_a_scene(void* handle) {
+    return lb_scene_remove_light(world.scene, handle);
+}
 static lb_result environment_of_a_scene(void* handle) {
     return lb_scene_set_environment(world.scene, handle);
 }
@@ -110,6 +123,7 @@ static const struct call {
     {"lb_brdf_create_ggx", CONTEXT, with_lb_brdf_create_ggx},
     {"lb_environment_load", CONTEXT, with_lb_environment_load},
     {"lb_environment_create", CONTEXT, with_lb_environment_create},
+    {"lb_sun_create", CONTEXT, with_lb_sun_create},
     {"lb_mesh_create", CONTEXT, with_lb_mesh_create},
     {"lb_mesh_builtin", CONTEXT, with_lb_mesh_builtin},
     {"lb_scene_create", CONTEXT, with_lb_scene_create},
@@ -120,10 +134,14 @@ static const struct call {
     {"lb_brdf_map", BRDF, with_lb_brdf_map},
     {"lb_environment_retain", ENVIRONMENT, with_lb_environment_retain},
     {"lb_environment_map", ENVIRONMENT, with_lb_environment_map},
+    {"lb_light_retain", LIGHT, with_lb_light_retain},
+    {"lb_sun_set", LIGHT, with_lb_sun_set},
     {"lb_mesh_retain", MESH, with_lb_mesh_retain},
     {"lb_mesh_info", MESH, with_lb_mesh_info},
     {"lb_scene_retain", SCENE, with_lb_scene_retain},
     {"lb_scene_set_environment", SCENE, with_lb_scene_set_environment},
+    {"lb_scene_add_light", SCENE, with_lb_scene_add_light},
+    {"lb_scene_remove_light", SCENE, with_lb_scene_remove_light},
     {"lb_scene_set_camera", SCENE, with_lb_scene_set_camera},
     {"lb_scene_add", SCENE, with_lb_scene_add},
     {"lb_scene_set_transform", SCENE, with_lb_scene_set_transform},
@@ -141,12 +159,14 @@ static const struct call {
     {"lb_frame_save", FRAME, with_lb_frame_save},
     {"lb_buffer_retain", BUFFER, with_lb_buffer_retain},
     {"lb_scene_set_environment, environment", ENVIRONMENT, environment_of_a_scene},
+    {"lb_scene_add_light, light", LIGHT, light_of_a_scene},
+    {"lb_scene_remove_light, light", LIGHT, light_taken_from_a_scene},
     {"lb_scene_add, mesh", MESH, mesh_of_an_instance},
     {"lb_scene_add, brdf", BRDF, brdf_of_an_instance},
     {"lb_frame_render, scene", SCENE, scene_of_a_render},
 };
 enum { CALLS = sizeof(calls) / sizeof(calls[0]) };
-static const char* const kind_names[KINDS] = {"context", "brdf", "environment", "mesh", "scene", "frame", "buffer"};
+static const char* const kind_names[KINDS] = {"context", "brdf", "environment", "light", "mesh", "scene", "frame", "buffer"};
 
 static lb_buffer make_buffer(void) {
     lb_buffer buffer = NULL;
@@ -158,6 +178,7 @@ static lb_buffer make_buffer(void) {
 /* A new object of the kind, to be released by release_kind. */
 static void* make_kind(enum kind kind) {
     struct world made;
+    lb_light light = NULL;
     memset(&made, 0, sizeof(made));
     switch (kind) {
         case CONTEXT:
@@ -167,6 +188,9 @@ static void* make_kind(enum kind kind) {
             return made.brdf;
         case ENVIRONMENT:
             return make_flat_environment(world.context, 1.0f);
+        case LIGHT:
+            assert_ok(lb_sun_create(world.context, &sun_desc, &light));
+            return light;
         case MESH:
             assert_ok(lb_mesh_create(world.context, &mesh_desc, &made.mesh));
             return made.mesh;
@@ -188,6 +212,8 @@ static lb_result release_kind(enum kind kind, void* handle) {
             return lb_brdf_release(handle);
         case ENVIRONMENT:
             return lb_environment_release(handle);
+        case LIGHT:
+            return lb_light_release(handle);
         case MESH:
             return lb_mesh_release(handle);
         case SCENE:

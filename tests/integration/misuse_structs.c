@@ -21,6 +21,7 @@ static const uint32_t corners[3] = {0, 1, 2};
 static const lb_context_desc context_desc = {sizeof(lb_context_desc), LB_DEVICE_SOFTWARE, NULL, NULL, ""};
 static const lb_mesh_desc mesh_desc = {sizeof(lb_mesh_desc), 3, triangle, NULL, NULL, corners, 1};
 static const lb_camera_desc camera_desc = {sizeof(lb_camera_desc), {0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 0, 0, 0};
+static const lb_sun_desc sun_desc = {sizeof(lb_sun_desc), {0, 1, 0}, 0, {1, 1, 1}};
 static const lb_mesh_stats mesh_stats = LB_MESH_STATS_INIT;
 static const lb_setting_info setting_info = LB_SETTING_INFO_INIT;
 static const lb_frame_stats frame_stats = LB_FRAME_STATS_INIT;
@@ -46,6 +47,13 @@ static lb_result set_camera(void* desc) {
     assert_ok(lb_scene_create(world.context, &scene));
     const lb_result result = lb_scene_set_camera(scene, desc);
     assert_ok(lb_scene_release(scene));
+    return result;
+}
+
+static lb_result create_sun(void* desc) {
+    lb_light light = NULL;
+    const lb_result result = lb_sun_create(world.context, desc, &light);
+    assert_ok(lb_light_release(light));
     return result;
 }
 
@@ -83,6 +91,7 @@ static lb_result map_brdf(void* view) {
 static const struct versioned structs[] = {
     {"lb_context_desc", sizeof(lb_context_desc), &context_desc, create_context},
     {"lb_mesh_desc", sizeof(lb_mesh_desc), &mesh_desc, create_mesh},
+    {"lb_sun_desc", sizeof(lb_sun_desc), &sun_desc, create_sun},
     {"lb_camera_desc", sizeof(lb_camera_desc), &camera_desc, set_camera},
     {"lb_mesh_stats", sizeof(lb_mesh_stats), &mesh_stats, describe_mesh},
     {"lb_setting_info", sizeof(lb_setting_info), &setting_info, describe_setting},

@@ -5,7 +5,7 @@
 #include "bandwidth/octahedral.h"
 #include "bandwidth/wavelet.h"
 // clang-format off
-#include "assets/light.h"  // before the wrapper
+#include "lights/environment.h"  // before the wrapper
 #include "rendering.h"
 // clang-format on
 
@@ -45,7 +45,7 @@ SquareImage resampled(const RgbImage& map, int square_side, int lookups) {
 std::vector<float> device_bandwidth(const RgbImage& map, BandRule rule, int* square_side) {
     const auto device = std::make_shared<gl::Device>(LB_DEVICE_SOFTWARE, nullptr, nullptr);
     return device->run([&] {
-        const Light light(device, map);
+        const EnvironmentLight light(device, map);
         const EnvironmentBandwidth& bandwidth = light.bandwidth(rule);
         *square_side = int(bandwidth.side);
         std::vector<float> values(size_t(bandwidth.side) * bandwidth.side);

@@ -17,6 +17,7 @@ CLASSES = (
     lightband.Context,
     lightband.Brdf,
     lightband.Environment,
+    lightband.Sun,
     lightband.Mesh,
     lightband.Scene,
     lightband.Frame,
@@ -88,6 +89,7 @@ def objects(context: lightband.Context, scene: lightband.Scene, rendered: lightb
         "Context": context,
         "Brdf": context.lambert(0.5),
         "Environment": scene.environment,
+        "Sun": context.sun((0, 1, 0), 1),
         "Mesh": context.builtin_mesh("plane", 8),
         "Scene": scene,
         "Frame": rendered,
@@ -103,12 +105,16 @@ RIGHT: dict[str, dict[str, object]] = {
     "Context.ggx": {"alpha": 0.5, "f0": 0.5},
     "Context.load_environment": {"path": "x"},
     "Context.environment": {"radiance": 1},
+    "Context.sun": {"direction": (0, 1, 0), "irradiance": 1, "angular_radius": 0.01},
+    "Sun.set": {"direction": (0, 1, 0), "irradiance": 1, "angular_radius": 0.01},
     "Context.mesh": {"positions": np.eye(3), "indices": [[0, 1, 2]], "normals": np.eye(3), "texcoords": np.ones((3, 2))},
     "Context.builtin_mesh": {"name": "plane", "resolution": 8},
     "Context.frame": {"width": 4, "height": 4, "samples": 4, "target_error": 0.1, "method": "adaptive"},
     "Brdf.evaluate": {"wi": (0, 0, 1), "wo": (0, 0, 1)},
     "Brdf.albedo": {"theta_o": 0},
     "Scene.add": {"mesh": None, "brdf": None, "transform": np.eye(4), "double_sided": True},
+    "Scene.add_light": {"light": None},
+    "Scene.remove_light": {"light": None},
     "Scene.set_transform": {"index": 0, "transform": np.eye(4)},
     "Scene.set_double_sided": {"index": 0, "double_sided": True},
     "Scene.camera": {"eye": (0, 0, 3), "target": (0, 0, 0), "up": (0, 1, 0), "fov_y": 0.7, "near_plane": 1e-3, "far_plane": 1e3},
@@ -153,6 +159,8 @@ def test_a_wrong_type_is_refused_by_the_arguments_name(
     owner, method = path.split(".")
     arguments = dict(RIGHT[path])
     arguments.update({key: objects[key.capitalize()] for key in ("mesh", "brdf", "scene") if key in arguments})
+    if "light" in arguments:
+        arguments["light"] = objects["Sun"]
     arguments[name] = wrong
     if name == "fields" and isinstance(wrong, dict) or name == "progress" and callable(wrong):
         return  # names, one of which is unknown; a callable

@@ -30,6 +30,7 @@ def test_everything_public_is_exported_and_documented() -> None:
         lightband.Context,
         lightband.Brdf,
         lightband.Environment,
+        lightband.Sun,
         lightband.Mesh,
         lightband.Scene,
         lightband.Frame,
@@ -87,6 +88,7 @@ def test_a_caught_error_tells_its_code(context: lightband.Context) -> None:
 MAKERS: dict[str, Callable[[lightband.Context], object]] = {
     "Brdf": lambda context: context.ggx(0.25, 0.5),
     "Environment": lambda context: context.environment(np.ones((2, 4, 3))),
+    "Sun": lambda context: context.sun((0, 1, 0), 1),
     "Mesh": lambda context: context.builtin_mesh("plane", 8),
     "Scene": lambda context: context.scene(),
     "Frame": lambda context: context.frame(40, 24),
@@ -133,6 +135,7 @@ def test_with_closes(context: lightband.Context, kind: str) -> None:
 USES_OF_THE_CLOSED: dict[str, Callable[[object], object]] = {
     "Brdf": lambda brdf: brdf.albedo(0),
     "Environment": lambda environment: environment.radiance,
+    "Sun": lambda sun: sun.set((0, 1, 0), 1),
     "Mesh": lambda mesh: mesh.stats,
     "Scene": lambda scene: scene.camera((0, 0, 1), (0, 0, 0)),
     "Frame": lambda frame: frame["samples"],

@@ -166,6 +166,7 @@ void typed_values_follow_the_table(void**) {
          [](const Settings& s) { return s.allocation() == Allocation::constant_variance; }},
         {"brdf_lookup", "linear", [](const Settings& s) { return s.brdf_lookup() == Lookup::linear; }},
         {"environment_lookup", "nearest", [](const Settings& s) { return s.environment_lookup() == Lookup::nearest; }},
+        {"split_suns", "off", [](const Settings& s) { return !s.split_suns(); }},
         {"background", "environment", [](const Settings& s) { return s.background(); }},
         // A reference has its own way of sampling: these two say so without being asked.
         {"sequence", "random",

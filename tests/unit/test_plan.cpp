@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;
 
-constexpr PlanInput input{100, 60, 3, 2};
+constexpr PlanInput input{100, 60, 3, 2, 1};
 
 // Every combination of the settings that a plan depends on.
 template <class Visit>

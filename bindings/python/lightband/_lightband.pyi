@@ -28,6 +28,7 @@ _Choice: TypeAlias = Literal[
     "sequence",
     "brdf_lookup",
     "environment_lookup",
+    "split_suns",
     "background",
     "pass_times",
 ]
@@ -49,6 +50,7 @@ class _Settings(TypedDict, total=False):
     sequence: Literal["lattice", "random"]
     brdf_lookup: Literal["nearest", "linear"]
     environment_lookup: Literal["linear", "nearest"]
+    split_suns: Literal["on", "off"]
     background: Literal["none", "environment"]
     seed: SupportsFloat
     accumulate: SupportsFloat
@@ -139,6 +141,15 @@ class Context:
         """Distant light from an array.
 
         radiance: height x width x 3, linear RGB, rows top-down; laid out as in load_environment. Copied.
+        """
+    def sun(self, direction: ArrayLike, irradiance: ArrayLike, angular_radius: SupportsFloat | None = None) -> Sun:
+        """A disc of uniform radiance, infinitely far away.
+
+        direction: towards the sun, in world space, of any length but zero.
+        irradiance: RGB, or one number for all three: of a surface that faces the sun, in units of radiance times steradian. It is
+            the radiance of the disc times pi sin^2(angular_radius).
+        angular_radius: radians, 1e-4 to pi / 2; None: 0.004652, that of the sun seen from the earth.
+        Scene.add_light puts it into a scene.
         """
     def mesh(
         self,
@@ -233,6 +244,26 @@ class Environment:
         It ends at what its texels, or the map's, can show.
         """
 
+class Sun:
+    """A disc of uniform radiance, infinitely far away. Made by Context.sun."""
+
+    def close(self) -> None:
+        """Releases the handle now instead of when the object is collected.
+
+        Calls on it then raise InvalidHandle; objects made from it live on.
+        """
+    def __enter__(self) -> Self:
+        """The object itself."""
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Closes the object."""
+    def set(self, direction: ArrayLike, irradiance: ArrayLike, angular_radius: SupportsFloat | None = None) -> None:
+        """Moves and changes the sun; see Context.sun.
+
+        Scenes that it is in show it when they are rendered next.
+        """
+
 class Mesh:
     """Triangles. Made by Context.mesh and Context.builtin_mesh."""
 
@@ -252,9 +283,9 @@ class Mesh:
         """Counts and bounds, a MeshStats."""
 
 class Scene:
-    """Meshes with their materials, one environment, one camera.
+    """Meshes with their materials, one environment, other lights, one camera.
 
-    Made by Context.scene. It needs an environment and a camera before it can be rendered; it may have no mesh.
+    Made by Context.scene. It needs a camera before it can be rendered; it may have no mesh and no light, where it is black.
     """
 
     def close(self) -> None:
@@ -283,6 +314,10 @@ class Scene:
             triangles are then not drawn.
         The array frame.material holds the number plus one. At most 254 instances.
         """
+    def add_light(self, light: Sun) -> None:
+        """Adds a light, a Sun, to those of the scene: at most 1024, each once. The light from all of them and from the environment adds up."""
+    def remove_light(self, light: Sun) -> None:
+        """Takes a light out of the scene again."""
     def set_transform(self, index: SupportsIndex, transform: ArrayLike) -> None:
         """Replaces the transform of an instance."""
     def set_double_sided(self, index: SupportsIndex, double_sided: bool) -> None:

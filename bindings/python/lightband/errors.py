@@ -42,7 +42,7 @@ class InvalidHandle(Error, ValueError):
 
 
 class StateError(Error):
-    """The call came too early (no camera, no environment, no frame rendered) or from a callback."""
+    """The call came too early (no camera, no frame rendered) or from a callback."""
 
     code = 3
 

@@ -1,4 +1,4 @@
-#include "assets/footprint_light.h"
+#include "lights/footprint_light.h"
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ constexpr uint32_t smallest_side = 16, largest_side = 256;
 
 }  // namespace
 
-FootprintLight footprint_light(const Light& light, Lookup lookup, FootprintLight::Kind kind) {
+FootprintLight footprint_light(const EnvironmentLight& light, Lookup lookup, FootprintLight::Kind kind) {
     gl::Device& device = *light.device();
     const gl::Functions& gl = device.gl();
     FootprintLight result;

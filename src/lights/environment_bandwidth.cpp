@@ -1,4 +1,4 @@
-#include "assets/environment_bandwidth.h"
+#include "lights/environment_bandwidth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-"""Lamps over a dim sky: radiance has an edge where a surface's horizon crosses one, beside which a pixel is a hundredth as bright. What is
-promised is kept there too."""
+"""Small bright sources over a dim sky: radiance has an edge where a surface's horizon crosses one, beside which a pixel is a hundredth as
+bright. What is promised is kept there too."""
 
 import numpy as np
 import pytest
@@ -16,10 +16,10 @@ def towards(row, column, height):
     return np.stack([np.cos(latitude) * np.sin(longitude), np.sin(latitude) + 0 * longitude, np.cos(latitude) * np.cos(longitude)], -1)
 
 
-def sky(height, radiance, texels, lamp):
+def sky(height, radiance, texels, source):
     pixels = np.full((height, 2 * height), radiance, np.float32)
     for texel in texels:
-        pixels[texel] = lamp
+        pixels[texel] = source
     return pixels
 
 
@@ -34,8 +34,8 @@ SCENES = {  # map, mesh, its segments and transform, eye
     "sun over a sphere": (sky(32, 0.1, [(12, 20)], 1e6), "sphere", 0, None, (0, 0, 1.6)),
     "sun over bumps": (sky(32, 0.1, [(12, 20)], 1e6), "blob", 0, None, (0, 0, 1.6)),
     "sun over large triangles": (sky(64, 0.1, [(55, 74)], 1e6), "blob", 8, None, (0, 0, 1.6)),
-    "a lamp in the dark": (sky(16, 0, [(13, 7)], 1), "torus", 96, TORUS, (-0.162, -0.055, 0.903)),
-    "three lamps in the dark": (sky(16, 0, [(13, 7), (13, 9), (11, 7)], 1), "torus", 96, TORUS, (-0.162, -0.055, 0.903)),
+    "a source in the dark": (sky(16, 0, [(13, 7)], 1), "torus", 96, TORUS, (-0.162, -0.055, 0.903)),
+    "three sources in the dark": (sky(16, 0, [(13, 7), (13, 9), (11, 7)], 1), "torus", 96, TORUS, (-0.162, -0.055, 0.903)),
     "a disc in the dark": (disc(64, 0.07), "torus", 96, None, (0.2, 0.5, 1.2)),
 }
 

@@ -1,7 +1,7 @@
 // Instant bandwidth of a map (section 2.3): onto the octahedral square, through Daubechies-4 wavelets, to cycles/radian.
 #pragma once
 
-#include "assets/light.h"
+#include "lights/environment.h"
 
 namespace lightband {
 

@@ -1,10 +1,10 @@
 // The map for lookups of footprints (Krivanek and Colbert 2008): on the octahedral square, mip-mapped.
 #pragma once
 
-#include "assets/light.h"
+#include "lights/environment.h"
 
 namespace lightband {
 
-FootprintLight footprint_light(const Light& light, Lookup lookup, FootprintLight::Kind kind);
+FootprintLight footprint_light(const EnvironmentLight& light, Lookup lookup, FootprintLight::Kind kind);
 
 }  // namespace lightband
