@@ -81,7 +81,7 @@ const lb_setting_info table[] = {
     choice_of("split_suns", "on|off", "on",
               "on: small bright sources of the environment's map, as the sun, are taken out of it and become suns of the same flux, mean "
               "direction and width: at most eight, of up to 0.02 radians around the brightest texels, that bring at least half of the "
-              "light that comes from none; what fills more than 0.1 radians stays. off: they stay texels of the map, exactly as it is "
+              "light that comes from none; what is a wider disc than that stays. off: they stay texels of the map, exactly as it is "
               "interpolated; samples meet them more rarely, and beside the brightest ones the rest of the map is known less well."),
     choice_of("background", "none|environment", "none", "What pixels that see no mesh show."),
     integer("seed", 0, 4294967295.0, 0, "Frames with different seeds are independent; equal seeds give equal frames."),

@@ -32,6 +32,7 @@ def disc(height, half_angle):
 
 SCENES = {  # map, mesh, its segments and transform, eye
     "sun over a sphere": (sky(32, 0.1, [(12, 20)], 1e6), "sphere", 0, None, (0, 0, 1.6)),
+    "small sun over a sphere": (sky(256, 0.1, [(100, 160)], 1e7), "sphere", 0, None, (0, 0, 1.6)),
     "sun over bumps": (sky(32, 0.1, [(12, 20)], 1e6), "blob", 0, None, (0, 0, 1.6)),
     "sun over large triangles": (sky(64, 0.1, [(55, 74)], 1e6), "blob", 8, None, (0, 0, 1.6)),
     "a source in the dark": (sky(16, 0, [(13, 7)], 1), "torus", 96, TORUS, (-0.162, -0.055, 0.903)),

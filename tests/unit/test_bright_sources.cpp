@@ -58,7 +58,7 @@ void discs_are_found(void**) {
 
 // To 1e-6 of each channel, for texels of whatever colour at the poles and at the seam.
 void light_is_kept(void**) {
-    for (const uint32_t height : {32u, 64u, 256u})
+    for (const uint32_t height : {160u, 256u})
         for (const Lookup lookup : {Lookup::linear, Lookup::nearest})
             for (const uint32_t row : {0u, height / 2, height - 1})
                 for (const uint32_t column : {0u, height, 2 * height - 1}) {
@@ -93,7 +93,7 @@ void what_is_not_bright_beside_the_sky_stays(void**) {
 }
 
 void wide_lights_stay(void**) {
-    for (const uint32_t height : {1u, 2u, 8u, 16u, 25u}) {
+    for (const uint32_t height : {1u, 2u, 8u, 16u, 64u, 128u}) {
         RgbImage map = sky(height, 0, {});
         map.rgb[height / 2 * map.width * 3] = 1;
         assert_int_equal(bright_sources(map, 1, Lookup::linear).size(), 1);
@@ -105,14 +105,14 @@ void wide_lights_stay(void**) {
 void a_texel_in_the_dark_is_a_sun(void**) {
     RgbImage map = sky(1, 0, {});
     assert_int_equal(split_bright_sources(map, 1, Lookup::linear).suns.size(), 0);
-    map = sky(64, 0, {});
-    map.rgb[3 * (50 * 128 + 7) + 1] = 1e-30f;
+    map = sky(256, 0, {});
+    map.rgb[3 * (200 * 512 + 7) + 1] = 1e-30f;
     const BrightSources found = split_bright_sources(map, 1, Lookup::linear);
     assert_int_equal(found.suns.size(), 1);
-    const Vec3 direction = direction_of(Vec2(7.5 / 128, 50.5 / 64));
+    const Vec3 direction = direction_of(Vec2(7.5 / 512, 200.5 / 256));
     check_close("distance", glm::length(found.suns[0].direction - direction), 0, 1e-12);
     // The mean square of the distance from the middle of the pyramid that linear lookup makes of a texel, a sixth of its width each way.
-    const double width = pi / 64, across = std::sqrt(1 - direction.y * direction.y);
+    const double width = pi / 256, across = std::sqrt(1 - direction.y * direction.y);
     check_close("radius", found.suns[0].angular_radius, width * std::sqrt((1 + across * across) / 3), 1e-12);
 }
 
