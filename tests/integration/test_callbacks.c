@@ -10,6 +10,8 @@
 
 /* What the calls are given: valid objects of the world, so that each would succeed elsewhere. */
 static lb_buffer buffer;
+static lb_light sun;
+static lb_sun_desc sun_desc = LB_SUN_DESC_INIT;
 static lb_context_desc software = LB_CONTEXT_DESC_INIT;
 
 #define CALL(function, ...) \
@@ -41,6 +43,8 @@ CALL(lb_environment_retain, world.environment)
 CALL(lb_environment_release, world.environment)
 CALL(lb_mesh_retain, world.mesh)
 CALL(lb_mesh_release, world.mesh)
+CALL(lb_light_retain, sun)
+CALL(lb_light_release, sun)
 CALL(lb_scene_retain, world.scene)
 CALL(lb_scene_release, world.scene)
 CALL(lb_frame_retain, world.frame)
@@ -62,7 +66,11 @@ CALL(lb_environment_map, world.environment, "radiance", (lb_buffer*)&made, &view
 CALL(lb_mesh_create, world.context, &triangle, (lb_mesh*)&made)
 CALL(lb_mesh_builtin, world.context, "plane", 8, (lb_mesh*)&made)
 CALL(lb_mesh_info, world.mesh, &mesh_stats)
+CALL(lb_sun_create, world.context, &sun_desc, (lb_light*)&made)
+CALL(lb_sun_set, sun, &sun_desc)
 CALL(lb_scene_create, world.context, (lb_scene*)&made)
+CALL(lb_scene_add_light, world.scene, sun)
+CALL(lb_scene_remove_light, world.scene, sun)
 CALL(lb_scene_set_environment, world.scene, world.environment)
 CALL(lb_scene_set_camera, world.scene, &camera)
 CALL(lb_scene_add, world.scene, world.mesh, world.brdf, NULL, NULL)
@@ -89,14 +97,20 @@ static const struct {
 } calls[] = {
     ENTRY(lb_context_create), ENTRY(lb_context_device_name), ENTRY(lb_context_is_software), ENTRY(lb_context_retain),
     ENTRY(lb_context_release), ENTRY(lb_brdf_retain), ENTRY(lb_brdf_release), ENTRY(lb_environment_retain),
-    ENTRY(lb_environment_release), ENTRY(lb_mesh_retain), ENTRY(lb_mesh_release), ENTRY(lb_scene_retain), ENTRY(lb_scene_release),
-    ENTRY(lb_frame_retain), ENTRY(lb_frame_release), ENTRY(lb_buffer_retain), ENTRY(lb_buffer_release), ENTRY(lb_brdf_load), ENTRY(lb_brdf_load_as_measured),
+    ENTRY(lb_environment_release), ENTRY(lb_mesh_retain), ENTRY(lb_mesh_release), ENTRY(lb_light_retain),
+    ENTRY(lb_light_release), ENTRY(lb_scene_retain), ENTRY(lb_scene_release),
+    ENTRY(lb_frame_retain), ENTRY(lb_frame_release), ENTRY(lb_buffer_retain), ENTRY(lb_buffer_release),
+    ENTRY(lb_brdf_load), ENTRY(lb_brdf_load_as_measured),
     ENTRY(lb_brdf_builtin), ENTRY(lb_brdf_create_table), ENTRY(lb_brdf_create_lambert), ENTRY(lb_brdf_create_ggx),
-    ENTRY(lb_brdf_evaluate), ENTRY(lb_brdf_albedo), ENTRY(lb_brdf_map), ENTRY(lb_environment_load), ENTRY(lb_environment_create),
-    ENTRY(lb_environment_map), ENTRY(lb_mesh_create), ENTRY(lb_mesh_builtin), ENTRY(lb_mesh_info), ENTRY(lb_scene_create),
+    ENTRY(lb_brdf_evaluate), ENTRY(lb_brdf_albedo), ENTRY(lb_brdf_map), ENTRY(lb_environment_load),
+    ENTRY(lb_environment_create),
+    ENTRY(lb_environment_map), ENTRY(lb_mesh_create), ENTRY(lb_mesh_builtin), ENTRY(lb_mesh_info),
+    ENTRY(lb_sun_create), ENTRY(lb_sun_set), ENTRY(lb_scene_create), ENTRY(lb_scene_add_light),
+    ENTRY(lb_scene_remove_light),
     ENTRY(lb_scene_set_environment), ENTRY(lb_scene_set_camera), ENTRY(lb_scene_add), ENTRY(lb_scene_set_transform),
     ENTRY(lb_scene_set_double_sided), ENTRY(lb_frame_create), ENTRY(lb_frame_set_number), ENTRY(lb_frame_set_choice),
-    ENTRY(lb_frame_get_number), ENTRY(lb_frame_get_choice), ENTRY(lb_setting_at), ENTRY(lb_frame_render), ENTRY(lb_frame_info),
+    ENTRY(lb_frame_get_number), ENTRY(lb_frame_get_choice), ENTRY(lb_setting_at), ENTRY(lb_frame_render),
+    ENTRY(lb_frame_info),
     ENTRY(lb_frame_plan), ENTRY(lb_frame_explain), ENTRY(lb_frame_map), ENTRY(lb_frame_save),
 };
 enum { CALLS = sizeof calls / sizeof *calls };
@@ -312,12 +326,15 @@ static int make_all(void** state) {
     triangle.positions = corners;
     triangle.indices = indices;
     table = calloc(TABLE_FLOATS, sizeof *table);
+    sun_desc.direction[1] = 1;
+    if (lb_sun_create(world.context, &sun_desc, &sun) != LB_OK) return -1;
     return lb_frame_map(world.frame, "color", &buffer, &view);
 }
 
 static int release_all(void** state) {
     free(table);
     assert_ok(lb_buffer_release(buffer));
+    assert_ok(lb_light_release(sun));
     return release_world(state);
 }
 

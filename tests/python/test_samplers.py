@@ -130,7 +130,7 @@ def test_tables_are_made_when_a_sampler_needs_them(context, hides, bytes_below):
     environment = context.environment(radiance)  # 128 rows: a square of 128 texels a side
     scene = scene_of(context, context.ggx(0.3, (0.9, 0.9, 0.9)), environment)
     texels = sum((128 >> level) ** 2 for level in range(8))
-    sizes = [rendered(context, scene, *SIZE, samples=16, sampler=sampler, **EVERY).stats.device_bytes
+    sizes = [rendered(context, scene, *SIZE, samples=16, sampler=sampler, split_suns="off", **EVERY).stats.device_bytes
              for sampler in ("brdf", "filtered", "combined", "cut")]
     importance = 64 * (2 * 16 * 16 + 1) * 4  # of each view, means and peaks of cells, and their integral
     points = 65536 * 32 + 64 * 32  # control samples and rechecks of both biased samplers use directions of the map
