@@ -295,3 +295,28 @@ def test_a_light_is_in_a_scene_once(context):
         scene.add_light(sun)
     with lightband.Context(device="software", cache_path="") as other, pytest.raises(lightband.InvalidArgument, match="another context"):
         scene.add_light(other.sun((0, 1, 0), 1))
+
+
+def test_nothing_is_interpolated_across_the_terminator(shared):
+    """A pixel of the finest sample grid lies midway between two or four coarser neighbours. Where it is interpolated, a sun is above the
+    horizon of all of them as a whole, or below all: its half angle decides what is between."""
+    towards_sun = np.array([0.8, 0.5, 0.2]) / np.linalg.norm([0.8, 0.5, 0.2])
+    scene = shared.context.scene()
+    scene.camera(eye=(0, 0.3, 1.8), target=(0, 0, 0))
+    scene.add(shared.builtin_mesh("sphere"), shared.lambert(0.5))
+    scene.environment = shared.context.environment(np.full((4, 8, 3), 0.05, np.float32))
+    scene.add_light(shared.context.sun(direction=towards_sun, irradiance=(3, 3, 3)))
+    frame = shared.context.frame(128, 128, target_error=0.1)
+    frame.render(scene)
+    sine = frame.normal.astype(np.float64) @ towards_sun
+    side = np.where(frame.material == 0, np.nan, np.where(sine > np.sin(0.004652), 1, np.where(sine < -np.sin(0.004652), -1, 0)))
+    interpolated = (frame.material > 0) & (frame.shaded == 0)
+    beside = 0
+    for y, x in np.argwhere(interpolated[1:-1, 1:-1]) + 1:
+        if x % 2 == 0 and y % 2 == 0:
+            continue
+        neighbours = side[[y - y % 2, y + y % 2]][:, [x - x % 2, x + x % 2]]
+        known = neighbours[~np.isnan(neighbours)]
+        assert (known == side[y, x]).all() and side[y, x] != 0, f"pixel {x}, {y}"
+        beside += bool(side[y, x] != side[y - 3 : y + 4, x - 3 : x + 4].max())
+    assert interpolated.sum() > 3000 and beside > 20  # there are such pixels near the terminator
