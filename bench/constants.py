@@ -25,7 +25,7 @@ from tqdm import tqdm
 SCENES = (("sphere", "gold-paint", "grace"), ("bunny", "color-changing-paint3", "stpeters"), ("dragon", "nickel", "forest"),
           ("car body", "red-metallic-paint", "city"))
 ASKED = ({"target_error": 0.05}, {"target_error": 0.02}, {"time_budget": 100})
-FACTORS, SEEDS, SIDE, GAIN = (0.5, 2), (1, 2), 256, 1.2
+FACTORS, SEEDS, SIDE, GAIN = (0.5, 2), (1,), 256, 1.2
 COLUMNS = ("constant", "value", *(f"{what} {factor}" for factor in FACTORS for what in ("5 %", "2 %", "100 ms", "kept")))
 TABLE = Path(__file__).parent.parent / "src" / "picture" / "constants.h"
 
