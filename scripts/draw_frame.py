@@ -7,11 +7,10 @@ Passes and buffers are those of Frame.plan_for, so that the picture cannot diffe
 """
 from __future__ import annotations
 
-import argparse
-import sys
 from pathlib import Path
 
 import lightband
+from written_file import write_or_check
 
 TARGET = Path(__file__).parent.parent / "docs" / "how-a-frame-is-made.svg"
 GROUPS = (  # title, passes, colour of the box
@@ -77,16 +76,5 @@ def drawing(passes: dict[str, tuple[list[str], list[str]]]) -> str:
             f"<rect width='100%' height='100%' fill='white'/>\n{body}\n</svg>\n")
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    picture = drawing(passes_of_a_frame())
-    if not arguments.check:
-        TARGET.write_text(picture)
-    elif TARGET.read_text() != picture:
-        sys.exit(f"{TARGET} is out of date: run {Path(__file__).name}")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(__doc__, TARGET, drawing(passes_of_a_frame()))

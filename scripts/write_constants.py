@@ -5,11 +5,11 @@
 """
 from __future__ import annotations
 
-import argparse
 import csv
 import re
-import sys
 from pathlib import Path
+
+from written_file import write_or_check
 
 ROOT = Path(__file__).parent.parent
 SOURCE, STUDY, TARGET = ROOT / "src/picture/constants.h", ROOT / "docs/measurements/constants.csv", ROOT / "docs/error-control-constants.md"
@@ -47,15 +47,5 @@ def page() -> str:
     return "".join(parts)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    if not arguments.check:
-        TARGET.write_text(page())
-    elif TARGET.read_text() != page():
-        sys.exit(f"{TARGET} is out of date: run {Path(__file__).name}")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(__doc__, TARGET, page())

@@ -5,12 +5,11 @@
 """
 from __future__ import annotations
 
-import argparse
-import sys
 import textwrap
 from pathlib import Path
 
 import lightband
+from written_file import write_or_check
 
 TARGET = Path(__file__).parent.parent / "docs" / "settings.md"
 HEAD = """# Settings of a frame
@@ -41,15 +40,5 @@ def page() -> str:
     return HEAD + "\n".join(parts)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", action="store_true")
-    arguments = parser.parse_args()
-    if not arguments.check:
-        TARGET.write_text(page())
-    elif TARGET.read_text() != page():
-        sys.exit(f"{TARGET} is out of date: run {Path(__file__).name}")
-
-
 if __name__ == "__main__":
-    main()
+    write_or_check(__doc__, TARGET, page())

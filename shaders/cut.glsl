@@ -20,7 +20,7 @@ const float grazing = 0.03;
 // RGB; size: the parts that the cut is to have, about. coarser: the luminance of a cut of half as many.
 vec3 light_above(Pixel pixel, float size, out float coarser) {
     // Halved d times, a part errs 2^-d times as much; errors are least together where d follows the square root of what they are.
-    float wishes[TRUNK_PARTS], sum = 0.0, even = 0.0, expected = 0.0;
+    float priorities[TRUNK_PARTS], sum = 0.0, even = 0.0, expected = 0.0;
     uint seen[TRUNK_PARTS], seen_count = 0u;
     bool coarse = size < float(COARSE_TRUNK_PARTS);
     int first = coarse ? TRUNK_PARTS : 0, last = first + (coarse ? COARSE_TRUNK_PARTS : TRUNK_PARTS);
@@ -29,15 +29,17 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
         vec3 wi = part.xyz * pixel.frame;
         if (may_be_above(wi, part.w)) {
             vec4 flux = trunk[2 * k + 1];
-            float importance = lobe_importance(pixel.lobe.view, middle_above(wi, part.w)), wish = sqrt(flux.w * importance);
-            wishes[seen_count] = wish;
+            float importance = lobe_importance(pixel.lobe.view, middle_above(wi, part.w));
+            float priority = sqrt(flux.w * importance);
+            priorities[seen_count] = priority;
             seen[seen_count++] = uint(k);
-            sum += wish;
+            sum += priority;
             even += sqrt(flux.w);
             expected += luminance(flux.rgb) * importance;
         }
     }
-    float scale = sum > 0.0 ? (1.0 - defensive_fraction) * size / sum : 0.0, even_scale = even > 0.0 ? defensive_fraction * size / even : 0.0;
+    float scale = sum > 0.0 ? (1.0 - defensive_fraction) * size / sum : 0.0;
+    float even_scale = even > 0.0 ? defensive_fraction * size / even : 0.0;
     float too_much = min(surprising / size, surprising_share) * expected;
     vec3 light = vec3(0);
     // One loop over all parts of both cuts, so that neighbours run equally long. place, depth: of a part in its heap; wanted: the
@@ -48,7 +50,7 @@ vec3 light_above(Pixel pixel, float size, out float coarser) {
     while (true) {
         if (place == 2u << start && depth == start) {
             if (k == seen_count) break;
-            float parts = max(scale * wishes[k], even_scale * sqrt(trunk[2 * int(seen[k]) + 1].w));
+            float parts = max(scale * priorities[k], even_scale * sqrt(trunk[2 * int(seen[k]) + 1].w));
             wanted = uint(clamp(round(log2(max(parts, 1.0))), 0.0, float(TREE_DEPTH)));
             start = depth = max(wanted, 1u) - 1u;
             trunk_part = seen[k++];

@@ -31,7 +31,7 @@ void Frame::render(const Scene& scene, const Progress& progress) {
 
 std::string Frame::plan(const Scene& scene) const {
     check(scene);
-    return Plan(settings, {width_, height_, scene.instances().size(), scene.slots().materials.size(), scene.lights().size()}).text();
+    return Plan(settings, plan_input(scene, scene.slots(), width_, height_)).text();
 }
 
 const FrameResult& Frame::result() const {

@@ -37,11 +37,11 @@ void add_radiance(const gl::Texture& radiance, std::vector<float>* scratch, std:
     for (size_t i = 0; i < sum->size(); ++i) (*sum)[i] += double((*scratch)[i]);
 }
 
+}  // namespace
+
 PlanInput plan_input(const Scene& scene, const Scene::Slots& slots, uint32_t width, uint32_t height) {
     return {width, height, scene.instances().size(), slots.materials.size(), scene.lights().size()};
 }
-
-}  // namespace
 
 const Run::NamedPass Run::passes_by_name[] = {
     {"gbuffer", [](Run& run) { return run.geometry(); }},

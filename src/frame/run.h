@@ -11,6 +11,9 @@
 
 namespace lightband {
 
+// What a plan needs to know of a scene.
+PlanInput plan_input(const Scene& scene, const Scene::Slots& slots, uint32_t width, uint32_t height);
+
 class Run {
 public:
     Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Throughput& throughput,
