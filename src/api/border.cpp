@@ -46,8 +46,8 @@ HandleTable<const HostArray>& arrays() {
     return table;
 }
 
-// A message that is too long loses its middle: it begins with the name of a file or an argument, which alone may be as long
-// as the caller likes, and ends in the reason.
+// A message that is too long loses its middle: it begins with the name of a file or an argument, which alone may be as
+// long as the caller likes, and ends in the reason.
 lb_result fail(lb_result code, const char* message) noexcept {
     constexpr char gap[] = " ... ";
     constexpr size_t gap_length = sizeof gap - 1, longest = sizeof last_message - 1, part = (longest - gap_length) / 2;
@@ -69,9 +69,11 @@ lb_result fail(lb_result code, const char* message) noexcept {
 
 const char* refusal() {
     if (HostThread::in_callback())
-        return "a progress or log callback must not call the library: do the work after the call that it interrupts has returned";
+        return "a progress or log callback must not call the library: do the work after the call that it interrupts "
+               "has returned";
     if (process_was_forked())
-        return "this process was forked from one that had made a context, and contexts do not outlive a fork: make them after fork, or "
+        return "this process was forked from one that had made a context, and contexts do not outlive a fork: make "
+               "them after fork, or "
                "start processes anew (exec; in Python: multiprocessing's start methods \"spawn\" and \"forkserver\")";
     if (process_ends()) return "the process ends: exit was called, and the driver's own exit handlers run";
     return nullptr;
@@ -114,25 +116,41 @@ void give_array(HostArray array, lb_buffer* buffer, lb_buffer_view* view) {
 
 extern "C" {
 
-uint32_t lb_version(void) { return 10000 * LB_VERSION_MAJOR + 100 * LB_VERSION_MINOR + LB_VERSION_PATCH; }
+uint32_t lb_version(void) {
+    return 10000 * LB_VERSION_MAJOR + 100 * LB_VERSION_MINOR + LB_VERSION_PATCH;
+}
 
 const char* lb_result_name(lb_result result) {
     switch (result) {
-        case LB_OK: return "LB_OK";
-        case LB_ERROR_INVALID_ARGUMENT: return "LB_ERROR_INVALID_ARGUMENT";
-        case LB_ERROR_INVALID_HANDLE: return "LB_ERROR_INVALID_HANDLE";
-        case LB_ERROR_INVALID_STATE: return "LB_ERROR_INVALID_STATE";
-        case LB_ERROR_FILE: return "LB_ERROR_FILE";
-        case LB_ERROR_FORMAT: return "LB_ERROR_FORMAT";
-        case LB_ERROR_OUT_OF_MEMORY: return "LB_ERROR_OUT_OF_MEMORY";
-        case LB_ERROR_DEVICE: return "LB_ERROR_DEVICE";
-        case LB_ERROR_LIMIT: return "LB_ERROR_LIMIT";
-        case LB_ERROR_CANCELLED: return "LB_ERROR_CANCELLED";
-        case LB_ERROR_INTERNAL: return "LB_ERROR_INTERNAL";
-        default: return "unknown";
+        case LB_OK:
+            return "LB_OK";
+        case LB_ERROR_INVALID_ARGUMENT:
+            return "LB_ERROR_INVALID_ARGUMENT";
+        case LB_ERROR_INVALID_HANDLE:
+            return "LB_ERROR_INVALID_HANDLE";
+        case LB_ERROR_INVALID_STATE:
+            return "LB_ERROR_INVALID_STATE";
+        case LB_ERROR_FILE:
+            return "LB_ERROR_FILE";
+        case LB_ERROR_FORMAT:
+            return "LB_ERROR_FORMAT";
+        case LB_ERROR_OUT_OF_MEMORY:
+            return "LB_ERROR_OUT_OF_MEMORY";
+        case LB_ERROR_DEVICE:
+            return "LB_ERROR_DEVICE";
+        case LB_ERROR_LIMIT:
+            return "LB_ERROR_LIMIT";
+        case LB_ERROR_CANCELLED:
+            return "LB_ERROR_CANCELLED";
+        case LB_ERROR_INTERNAL:
+            return "LB_ERROR_INTERNAL";
+        default:
+            return "unknown";
     }
 }
 
-const char* lb_error_message(void) { return lightband::api::last_message; }
+const char* lb_error_message(void) {
+    return lightband::api::last_message;
+}
 
 }  // extern "C"

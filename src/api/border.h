@@ -33,8 +33,8 @@ HandleTable<const HostArray>& arrays();
 lb_result fail(lb_result code, const char* message) noexcept;
 lb_result translate_exception() noexcept;  // of the exception that is being handled
 
-// Why no call is taken on this thread now (LB_ERROR_INVALID_STATE): a callback runs, or the process was forked or ends. NULL: calls are
-// taken.
+// Why no call is taken on this thread now (LB_ERROR_INVALID_STATE): a callback runs, or the process was forked or ends.
+// NULL: calls are taken.
 const char* refusal();
 
 // Runs the body of a call; nothing leaves it but a result, or the end of a thread that a callback ends.
@@ -56,8 +56,8 @@ inline void require(const void* argument, const char* name) {
     if (argument == nullptr) throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, " is NULL"));
 }
 
-// Objects hold OpenGL's: whoever lets go of one last, it ends on the thread of its context. The device outlives it, so that its thread
-// is never left to end itself.
+// Objects hold OpenGL's: whoever lets go of one last, it ends on the thread of its context. The device outlives it, so
+// that its thread is never left to end itself.
 template <class Object, class... Arguments>
 std::shared_ptr<Object> make(Arguments&&... arguments) {
     return {new Object(std::forward<Arguments>(arguments)...), [](Object* object) {
@@ -71,16 +71,17 @@ void give(HandleTable<Object>& table, std::shared_ptr<Object> object, Handle* ou
     *out = reinterpret_cast<Handle>(table.insert(std::move(object)));
 }
 
-// A descriptor as the caller's version of it knew it: the unknown tail of a longer one must be zero. No struct has grown yet, so that
-// a shorter one is an error; whoever appends a field lets those of the size before be completed with zeros.
+// A descriptor as the caller's version of it knew it: the unknown tail of a longer one must be zero. No struct has
+// grown yet, so that a shorter one is an error; whoever appends a field lets those of the size before be completed with
+// zeros.
 template <class Struct>
 Struct read_struct(const Struct* given, const char* name) {
     require(given, name);
     uint32_t size;
     std::memcpy(&size, given, sizeof size);
     if (size < sizeof(Struct))
-        throw Error(LB_ERROR_INVALID_ARGUMENT,
-                    text(name, ": struct_size is ", size, "; it must be at least ", sizeof(Struct), " (see its INIT macro)"));
+        throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, ": struct_size is ", size, "; it must be at least ",
+                                                    sizeof(Struct), " (see its INIT macro)"));
     const auto* bytes = reinterpret_cast<const unsigned char*>(given);
     // A size beyond any later version is an uninitialised struct, whose tail must not be read.
     constexpr uint32_t largest = 4096;
@@ -88,8 +89,8 @@ Struct read_struct(const Struct* given, const char* name) {
         throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, ": struct_size is ", size, "; it must be at most ", largest));
     for (uint32_t i = sizeof(Struct); i < size; ++i)
         if (bytes[i] != 0)
-            throw Error(LB_ERROR_INVALID_ARGUMENT,
-                        text(name, ": byte ", i, " is not zero; this library knows ", sizeof(Struct), " bytes of the struct"));
+            throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, ": byte ", i, " is not zero; this library knows ",
+                                                        sizeof(Struct), " bytes of the struct"));
     Struct result;
     std::memcpy(&result, given, sizeof result);
     return result;

@@ -71,12 +71,15 @@ lb_result lb_frame_get_choice(lb_frame frame, const char* name, const char** val
     });
 }
 
-uint32_t lb_setting_count(void) { return Settings::count(); }
+uint32_t lb_setting_count(void) {
+    return Settings::count();
+}
 
 lb_result lb_setting_at(uint32_t index, lb_setting_info* info) {
     return border([&] {
         if (index >= Settings::count())
-            throw Error(LB_ERROR_INVALID_ARGUMENT, text("index is ", index, "; there are ", Settings::count(), " settings"));
+            throw Error(LB_ERROR_INVALID_ARGUMENT,
+                        text("index is ", index, "; there are ", Settings::count(), " settings"));
         write_struct(info, Settings::info(index), "info");
     });
 }
@@ -129,7 +132,9 @@ lb_result lb_frame_map(lb_frame frame, const char* name, lb_buffer* buffer, lb_b
     });
 }
 
-uint32_t lb_frame_buffer_count(void) { return uint32_t(std::size(field_names)); }
+uint32_t lb_frame_buffer_count(void) {
+    return uint32_t(std::size(field_names));
+}
 
 const char* lb_frame_buffer_name(uint32_t index) {
     return index < std::size(field_names) ? field_names[index].name : nullptr;
@@ -150,7 +155,8 @@ lb_result lb_frame_save(lb_frame frame, const char* path, const lb_save_desc* de
                                   described.tone_curve == LB_TONE_FILMIC ? io::ToneCurve::filmic : io::ToneCurve::none,
                                   described.alpha == LB_ALPHA_OPAQUE};
         const auto source = frames().get(frame, "frame");
-        source->device()->run([&] { save(*source, path, described.names != nullptr ? described.names : "color", display); });
+        source->device()->run(
+            [&] { save(*source, path, described.names != nullptr ? described.names : "color", display); });
     });
 }
 

@@ -14,7 +14,8 @@ using namespace lightband::api;
 
 namespace {
 
-// read: reads or computes the reflectance, without the device. source: what is wrong where it is not to be had, and how.
+// read: reads or computes the reflectance, without the device. source: what is wrong where it is not to be had, and
+// how.
 template <class Read>
 lb_result create_brdf(lb_context context, lb_brdf* brdf, Read read, const char* source = "values",
                       lb_result wrong = LB_ERROR_INVALID_ARGUMENT) {
@@ -41,7 +42,8 @@ Vec3 direction(const float v[3], const char* name) {
     const Vec3 d(v[0], v[1], v[2]);
     const double length = glm::length(d);
     if (!(length > 0) || !std::isfinite(length))
-        throw Error(LB_ERROR_INVALID_ARGUMENT, text(name, " is (", v[0], ", ", v[1], ", ", v[2], "); it must be a direction"));
+        throw Error(LB_ERROR_INVALID_ARGUMENT,
+                    text(name, " is (", v[0], ", ", v[1], ", ", v[2], "); it must be a direction"));
     return d / length;
 }
 
@@ -92,29 +94,30 @@ HostArray environment_field(const EnvironmentLight& light, const std::string& na
 
 HostArray brdf_field(const Material& material, const std::string& name) {
     if (name == "bandwidth")
-        return HostArray::of(LB_TYPE_FLOAT32, {LobeBandwidth::views, LobeBandwidth::side, LobeBandwidth::side}, "1/radian",
-                             material.bandwidth(Settings().band_rule()).values);
+        return HostArray::of(LB_TYPE_FLOAT32, {LobeBandwidth::views, LobeBandwidth::side, LobeBandwidth::side},
+                             "1/radian", material.bandwidth(Settings().band_rule()).values);
     if (name != "table")
         throw Error(LB_ERROR_INVALID_ARGUMENT, text("there is no field \"", name, "\"; there are table, bandwidth"));
     const auto* table = std::get_if<BrdfTable>(&material.brdf());
     if (table == nullptr) throw Error(LB_ERROR_INVALID_STATE, "field table: the BRDF is analytic and has none");
     return HostArray::of(LB_TYPE_FLOAT32,
-                         {BrdfTable::theta_half_cells, BrdfTable::theta_diff_cells, BrdfTable::phi_diff_cells, 3}, "1/steradian",
-                         table->rgb);
+                         {BrdfTable::theta_half_cells, BrdfTable::theta_diff_cells, BrdfTable::phi_diff_cells, 3},
+                         "1/steradian", table->rgb);
 }
 
 BrdfTable table_from(const float* values, size_t count) {
     require(values, "values");
     if (count != BrdfTable::cell_count * 3)
-        throw Error(LB_ERROR_INVALID_ARGUMENT, text("count is ", count, "; a table has 90 x 90 x 180 x 3 = ", BrdfTable::cell_count * 3));
+        throw Error(LB_ERROR_INVALID_ARGUMENT,
+                    text("count is ", count, "; a table has 90 x 90 x 180 x 3 = ", BrdfTable::cell_count * 3));
     BrdfTable table;
     table.rgb.assign(values, values + count);
     for (size_t i = 0; i < count; i += 3) {
         float* rgb = &table.rgb[i];
         for (int c = 0; c < 3; ++c)
             if (!std::isfinite(rgb[c]) || rgb[c] > largest_reflectance)
-                throw Error(LB_ERROR_INVALID_ARGUMENT, text("values[", i + size_t(c), "] is ", rgb[c], "; it must be finite and at most ",
-                                                            largest_reflectance));
+                throw Error(LB_ERROR_INVALID_ARGUMENT, text("values[", i + size_t(c), "] is ", rgb[c],
+                                                            "; it must be finite and at most ", largest_reflectance));
         if (*std::min_element(rgb, rgb + 3) < 0) std::fill(rgb, rgb + 3, -1.0f);
     }
     return table;
@@ -125,22 +128,28 @@ BrdfTable table_from(const float* values, size_t count) {
 extern "C" {
 
 lb_result lb_brdf_load(lb_context context, const char* path, lb_brdf* brdf) {
-    return create_brdf(context, brdf, [&](const Context& owner) -> Brdf {
-        require(path, "path");
-        BrdfTable table = io::read_merl(path);
-        const UnmeasuredCells count = fill_unmeasured_cells(table);
-        if (count.filled + count.left > 0)
-            owner.device->log(text(path, ": ", count.filled, " unmeasured cells were filled from measured ones; ",
-                                   count.left, " had none to be filled from and reflect nothing"));
-        return table;
-    }, path, LB_ERROR_FORMAT);
+    return create_brdf(
+        context, brdf,
+        [&](const Context& owner) -> Brdf {
+            require(path, "path");
+            BrdfTable table = io::read_merl(path);
+            const UnmeasuredCells count = fill_unmeasured_cells(table);
+            if (count.filled + count.left > 0)
+                owner.device->log(text(path, ": ", count.filled, " unmeasured cells were filled from measured ones; ",
+                                       count.left, " had none to be filled from and reflect nothing"));
+            return table;
+        },
+        path, LB_ERROR_FORMAT);
 }
 
 lb_result lb_brdf_load_as_measured(lb_context context, const char* path, lb_brdf* brdf) {
-    return create_brdf(context, brdf, [&](const Context&) -> Brdf {
-        require(path, "path");
-        return io::read_merl(path);
-    }, path, LB_ERROR_FORMAT);
+    return create_brdf(
+        context, brdf,
+        [&](const Context&) -> Brdf {
+            require(path, "path");
+            return io::read_merl(path);
+        },
+        path, LB_ERROR_FORMAT);
 }
 
 lb_result lb_brdf_builtin(lb_context context, const char* name, lb_brdf* brdf) {
@@ -150,7 +159,9 @@ lb_result lb_brdf_builtin(lb_context context, const char* name, lb_brdf* brdf) {
     });
 }
 
-uint32_t lb_brdf_builtin_count(void) { return uint32_t(builtin_models.size()); }
+uint32_t lb_brdf_builtin_count(void) {
+    return uint32_t(builtin_models.size());
+}
 
 const char* lb_brdf_builtin_name(uint32_t index) {
     return index < builtin_models.size() ? builtin_models[index].name : nullptr;
@@ -186,7 +197,8 @@ lb_result lb_brdf_albedo(lb_brdf brdf, float theta_o, float rgb[3]) {
         require(rgb, "rgb");
         const auto material = materials().get(brdf, "brdf");
         if (!(theta_o >= 0 && theta_o < float(pi / 2)))
-            throw Error(LB_ERROR_INVALID_ARGUMENT, text("theta_o is ", theta_o, "; it must be at least 0 and below pi / 2"));
+            throw Error(LB_ERROR_INVALID_ARGUMENT,
+                        text("theta_o is ", theta_o, "; it must be at least 0 and below pi / 2"));
         const Vec3 albedo = directional_albedo(material->brdf(), theta_o);
         for (int c = 0; c < 3; ++c) rgb[c] = float(albedo[c]);
     });

@@ -18,12 +18,12 @@ void Material::check_albedo(const std::string& source, lb_result code) const {
     const auto most = std::max_element(albedos.begin(), albedos.end());
     if (most == albedos.end() || *most <= largest_albedo) return;
     const double degrees = (double(most - albedos.begin()) + 0.5) * 90 / LobeTable::views;
-    throw Error(code, text(source, ": it reflects ", *most, " times the light that falls in at ", degrees, " degrees; at most ",
-                           largest_albedo, " are taken"));
+    throw Error(code, text(source, ": it reflects ", *most, " times the light that falls in at ", degrees,
+                           " degrees; at most ", largest_albedo, " are taken"));
 }
 
-// Four halves a cell: RGB divided by a power of two that brings the largest value to at most 2^15, and whether the cell was
-// measured. A half keeps 11 bits, 2^-12 of relative rounding, down to 2^-29 of the largest value.
+// Four halves a cell: RGB divided by a power of two that brings the largest value to at most 2^15, and whether the cell
+// was measured. A half keeps 11 bits, 2^-12 of relative rounding, down to 2^-29 of the largest value.
 void Material::upload_table(const BrdfTable& table) {
     const float largest = *std::max_element(table.rgb.begin(), table.rgb.end());
     table_scale_ = largest > 0 ? std::ldexp(1.0f, std::ilogb(largest) - 14) : 1.0f;
@@ -31,13 +31,14 @@ void Material::upload_table(const BrdfTable& table) {
     for (size_t i = 0; i < cells.size(); ++i) {
         const float* rgb = &table.rgb[3 * i];
         const bool measured = rgb[0] >= 0;
-        cells[i] = glm::packHalf4x16(measured ? glm::vec4(rgb[0], rgb[1], rgb[2], 0) / table_scale_ + glm::vec4(0, 0, 0, 1)
-                                              : glm::vec4(0));
+        cells[i] = glm::packHalf4x16(
+            measured ? glm::vec4(rgb[0], rgb[1], rgb[2], 0) / table_scale_ + glm::vec4(0, 0, 0, 1) : glm::vec4(0));
     }
     const gl::Functions& gl = device_->gl();
     if (size_t(device_->max_texture_buffer_texels()) < cells.size())
-        throw Error(LB_ERROR_LIMIT, text("a BRDF table of ", cells.size(), " cells exceeds the device's texture buffers of ",
-                                         device_->max_texture_buffer_texels(), " texels"));
+        throw Error(LB_ERROR_LIMIT,
+                    text("a BRDF table of ", cells.size(), " cells exceeds the device's texture buffers of ",
+                         device_->max_texture_buffer_texels(), " texels"));
     cells_ = gl::Buffer(gl, cells.size() * sizeof(uint64_t), cells.data());
     cells_texture_ = gl::Texture::of_buffer(gl, GL_RGBA16F, cells_);
     const LobeTable& lobes = sampler_.table();
@@ -57,8 +58,8 @@ std::string Material::definitions(Lookup lookup) const {
     if (std::holds_alternative<Lambert>(brdf_)) return "LOBE_LAMBERT\n" + views;
     if (std::holds_alternative<Ggx>(brdf_)) return "LOBE_GGX\n" + views;
     return text("LOBE_TABLE\n", views, "\nLOBE_RADIAL ", LobeTable::radial, "\nLOBE_AZIMUTHAL ", LobeTable::azimuthal,
-                "\nLOBE_DEFENSIVE ", LobeTable::defensive_part, "\nLOBE_OCTAVES ", LobeTable::octaves, "\nLOBE_FIRST_OCTAVE ",
-                LobeTable::first_octave, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
+                "\nLOBE_DEFENSIVE ", LobeTable::defensive_part, "\nLOBE_OCTAVES ", LobeTable::octaves,
+                "\nLOBE_FIRST_OCTAVE ", LobeTable::first_octave, lookup == Lookup::linear ? "\nBRDF_LINEAR" : "");
 }
 
 void Material::bind(const gl::Program& program) const {
@@ -110,7 +111,8 @@ const LobeBandwidth& Material::bandwidth(BandRule rule) const {
 const std::vector<Pilot>& Material::pilots(BandRule rule, uint32_t count) const {
     auto found = pilots_.find({rule, count});
     if (found == pilots_.end())
-        found = pilots_.emplace(std::make_pair(rule, count), lightband::pilots(brdf_, sampler_, bandwidth(rule), count)).first;
+        found = pilots_.emplace(std::make_pair(rule, count), lightband::pilots(brdf_, sampler_, bandwidth(rule), count))
+                    .first;
     return found->second;
 }
 

@@ -18,15 +18,17 @@ public:
 
     const gl::DevicePtr& device() const { return device_; }
     const Brdf& brdf() const { return brdf_; }
-    // Throws code where a table reflects more than so many times the light from some direction; the message names source and value. Nothing
-    // real reflects more than once that; what noise squares, under the brightest map (largest_radiance), stays within float.
+    // Throws code where a table reflects more than so many times the light from some direction; the message names
+    // source and value. Nothing real reflects more than once that; what noise squares, under the brightest map
+    // (largest_radiance), stays within float.
     static constexpr double largest_albedo = 100;
     void check_albedo(const std::string& source, lb_result code) const;
 
     // Definitions of the lobe.glsl variant, and binding of its tables and uniforms.
     std::string definitions(Lookup lookup) const;
     void bind(const gl::Program& program) const;
-    // What the map's clusters and the trunk of its tree are weighed by (src/sampling/lobe_sampler.h), made when first asked for.
+    // What the map's clusters and the trunk of its tree are weighed by (src/sampling/lobe_sampler.h), made when first
+    // asked for.
     void bind_importance() const;
 
     // The same for what predicts_by_lobe asks for (src/lights/light.h).
@@ -35,8 +37,8 @@ public:
     const LobeBandwidth& bandwidth(BandRule rule) const;
     const std::vector<Pilot>& pilots(BandRule rule, uint32_t count) const;
     size_t device_bytes() const {
-        return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes() + lobe_denser_.bytes() + importance_.bytes() +
-               bandwidth_.bytes();
+        return cells_.bytes() + lobe_x_.bytes() + lobe_phi_.bytes() + lobe_albedo_.bytes() + lobe_denser_.bytes() +
+               importance_.bytes() + bandwidth_.bytes();
     }
 
 private:

@@ -22,7 +22,8 @@ Transform Transform::from(const float* rows) {
     // Columns come as float: a volume below ten of its roundings cannot be told from a flat matrix.
     constexpr double flat = 1e-6;
     if (!(volume > flat * lengths))
-        throw Error(LB_ERROR_INVALID_ARGUMENT, text("transform is singular: its determinant is ", glm::determinant(linear)));
+        throw Error(LB_ERROR_INVALID_ARGUMENT,
+                    text("transform is singular: its determinant is ", glm::determinant(linear)));
     return transform;
 }
 
@@ -35,7 +36,8 @@ uint32_t Scene::add(Instance instance) {
 
 Instance& Scene::instance(uint32_t index) {
     if (index >= instances_.size())
-        throw Error(LB_ERROR_INVALID_ARGUMENT, text("index is ", index, "; the scene has ", instances_.size(), " instances"));
+        throw Error(LB_ERROR_INVALID_ARGUMENT,
+                    text("index is ", index, "; the scene has ", instances_.size(), " instances"));
     return instances_[index];
 }
 

@@ -9,7 +9,8 @@
 namespace lightband {
 namespace {
 
-// Sums over comparable pixels of squares relative to their scales. With own value y, spread s, and interpolated value z, spread t:
+// Sums over comparable pixels of squares relative to their scales. With own value y, spread s, and interpolated value
+// z, spread t:
 struct Sums {
     double count = 0;
     double own = 0;        // s (s - t): variance of y less its covariance with z
@@ -30,20 +31,24 @@ bool is_comparable(const RoundPixels& pixels, size_t at) {
 }
 
 // A squared error counts up to 1, as those of control and of validation pixels do.
-double clamped_square(double square) { return std::clamp(square, -constants::largest_square, constants::largest_square); }
+double clamped_square(double square) {
+    return std::clamp(square, -constants::largest_square, constants::largest_square);
+}
 
 Sums sums_of(const RoundPixels& pixels, size_t at, double mean) {
     const double scale = scale_of(pixels, at, mean);
     if (!(scale > 0)) return {};
     const float* spread = &pixels.spread[4 * at];
     const double own = spread[0] / scale, deviation = spread[1] / scale, difference = spread[2] / scale;
-    return {1, clamped_square(-own * difference), clamped_square(difference * difference), clamped_square(deviation * deviation)};
+    return {1, clamped_square(-own * difference), clamped_square(difference * difference),
+            clamped_square(deviation * deviation)};
 }
 
-// Mean squared error of interpolation of pixels on one lattice, as seen of them and of those on the next coarser one. The mean squared
-// deviations are D = N + I here and D' = N' + I' there, N being noise and I the error of interpolation. Spreads tell of N but may miss a
-// part of it; then D - N is too much. Across twice the distance the squared error of interpolation is at least twice as large (beside an
-// edge; 16 times where the picture is smooth), while noise falls as the spreads do: so D' - (N' / N) D >= (2 - N' / N) I as well.
+// Mean squared error of interpolation of pixels on one lattice, as seen of them and of those on the next coarser one.
+// The mean squared deviations are D = N + I here and D' = N' + I' there, N being noise and I the error of
+// interpolation. Spreads tell of N but may miss a part of it; then D - N is too much. Across twice the distance the
+// squared error of interpolation is at least twice as large (beside an edge; 16 times where the picture is smooth),
+// while noise falls as the spreads do: so D' - (N' / N) D >= (2 - N' / N) I as well.
 double interpolation_of(const Sums& here, const Sums& coarser, double calibration) {
     const double most = std::max(here.deviation - calibration * here.noise, 0.0) / here.count;
     if (!(coarser.count > 0) || !(here.noise > 0)) return most;
@@ -58,7 +63,8 @@ struct Split {
 };
 Split split(const Sums& here, const Sums& coarser, double calibration) {
     const double interpolation = interpolation_of(here, coarser, calibration);
-    return {interpolation, std::max(here.deviation / here.count - interpolation, calibration * here.noise / here.count)};
+    return {interpolation,
+            std::max(here.deviation / here.count - interpolation, calibration * here.noise / here.count)};
 }
 
 // (1 - p) y + p z errs least at p = (var y - cov(y, z)) / (var(z - y) + squared error of interpolation).
@@ -67,14 +73,20 @@ double best_part(const Sums& here, const Split& squares, uint32_t frames) {
     return all > 0 ? std::clamp(here.own / here.noise * noise / all, 0.0, 1.0) : 0;
 }
 
-// Sums in each tile, and over all of them, of pixels of one kind: of the finest lattice; of that, where something speaks against
-// interpolation (doubtful: shaders/lattice.glsl); of the next coarser lattice; and all others.
+// Sums in each tile, and over all of them, of pixels of one kind: of the finest lattice; of that, where something
+// speaks against interpolation (doubtful: shaders/lattice.glsl); of the next coarser lattice; and all others.
 class Pools {
 public:
     enum Kind { finest, finest_doubtful, coarser, other, kinds };
 
     Pools(const RoundPixels& pixels, const Tiles& tiles, uint32_t width, uint32_t coarsest, double mean)
-        : pixels_(pixels), tiles_(tiles), width_(width), coarsest_(coarsest), mean_(mean), of_all_(kinds), of_tile_(tiles.count * kinds) {
+        : pixels_(pixels),
+          tiles_(tiles),
+          width_(width),
+          coarsest_(coarsest),
+          mean_(mean),
+          of_all_(kinds),
+          of_tile_(tiles.count * kinds) {
         for (size_t i = 0; i < pixels.material.size(); ++i) {
             if (!is_comparable(pixels, i)) continue;
             const Sums own = sums_of(pixels, i, mean);
@@ -86,9 +98,12 @@ public:
     Kind kind_of(size_t at) const {
         const bool doubtful = pixels_.spread[4 * at + 3] < 0;
         switch (lattice_level(uint32_t(at % width_), uint32_t(at / width_), coarsest_)) {
-            case 0: return doubtful ? finest_doubtful : finest;
-            case 1: return doubtful ? other : coarser;
-            default: return other;
+            case 0:
+                return doubtful ? finest_doubtful : finest;
+            case 1:
+                return doubtful ? other : coarser;
+            default:
+                return other;
         }
     }
 
@@ -104,8 +119,8 @@ public:
         return result;
     }
 
-    // Those of the coarser lattice around one of the finest. They are few in a tile: it is taken to err by as much more or less than the
-    // frame as it does on the finest lattice.
+    // Those of the coarser lattice around one of the finest. They are few in a tile: it is taken to err by as much more
+    // or less than the frame as it does on the finest lattice.
     Sums coarser_around(size_t at, const Sums& around) const {
         const Sums &of_coarser = of_all_[coarser], &of_finest = of_all_[finest];
         if (!(of_coarser.count > 0) || !(of_finest.deviation > 0)) return {};
@@ -128,10 +143,10 @@ private:
 
 }  // namespace
 
-// A pixel's own values are not among those that choose its part: else what it shows would lean to whatever its noise made look good, and
-// its spread would no longer tell the error of that.
-std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const ControlSet& control, const Tiles& tiles, uint32_t width, uint32_t coarsest,
-                                     uint32_t frames) {
+// A pixel's own values are not among those that choose its part: else what it shows would lean to whatever its noise
+// made look good, and its spread would no longer tell the error of that.
+std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const ControlSet& control, const Tiles& tiles,
+                                     uint32_t width, uint32_t coarsest, uint32_t frames) {
     if (tiles.count == 0) return {};
     const double mean = mean_luminance(pixels), calibration = spread_calibration(pixels, control, mean);
     const Pools pools(pixels, tiles, width, coarsest, mean);
@@ -142,7 +157,8 @@ std::vector<uint8_t> neighbour_parts(const RoundPixels& pixels, const ControlSet
         if (kind != Pools::finest && kind != Pools::finest_doubtful) continue;
         const Sums around = pools.around(i);
         if (!(around.count > 0) || !(around.noise > 0)) continue;
-        const Split squares = split(around, kind == Pools::finest ? pools.coarser_around(i, around) : Sums(), calibration);
+        const Split squares =
+            split(around, kind == Pools::finest ? pools.coarser_around(i, around) : Sums(), calibration);
         const double most = kind == Pools::finest ? constants::edge_deviations : constants::doubtful_edge_deviations;
         if (pools.of(i).deviation > most * most * squares.noise) continue;
         parts[i] = uint8_t(std::lround(255 * best_part(around, squares, frames)));

@@ -11,24 +11,32 @@
 namespace lightband {
 namespace {
 
-double clamped_square_of(double value) { return std::min(value * value, constants::largest_square); }
+double clamped_square_of(double value) {
+    return std::min(value * value, constants::largest_square);
+}
 
 }  // namespace
 
-bool is_chosen_by(uint32_t x, uint32_t y, uint32_t seed, double part) { return hash((y << 16 | x) ^ hash(seed)) < part * 0x1p32; }
+bool is_chosen_by(uint32_t x, uint32_t y, uint32_t seed, double part) {
+    return hash((y << 16 | x) ^ hash(seed)) < part * 0x1p32;
+}
 
-bool ControlSet::has_enough_samples_for(double own_samples) const { return samples >= constants::least_control_gain * own_samples; }
+bool ControlSet::has_enough_samples_for(double own_samples) const {
+    return samples >= constants::least_control_gain * own_samples;
+}
 
 double ControlSet::square(const Pixel& pixel, double displayed, double scale, double own_samples) const {
     const double square = clamped_square_of((displayed - pixel.mean) / scale);
     if (!pixel.biased) return square - clamped_square_of(pixel.spread / scale);
-    return square / (1 + constants::visible_control_error * std::pow(own_samples / samples, constants::stratified_gain));
+    return square /
+           (1 + constants::visible_control_error * std::pow(own_samples / samples, constants::stratified_gain));
 }
 
-double ControlSet::squared_error_of_other(const Pixel& pixel, double displayed, double scale, double sampled, double own_samples) const {
+double ControlSet::squared_error_of_other(const Pixel& pixel, double displayed, double scale, double sampled,
+                                          double own_samples) const {
     const double square = clamped_square_of((displayed - pixel.mean) / scale);
-    return square -
-           (pixel.biased ? sampled * std::pow(own_samples / samples, constants::stratified_gain) : clamped_square_of(pixel.spread / scale));
+    return square - (pixel.biased ? sampled * std::pow(own_samples / samples, constants::stratified_gain)
+                                  : clamped_square_of(pixel.spread / scale));
 }
 
 bool ControlSet::sees_more_than(const Pixel& unbiased, const Pixel& cut) {
@@ -36,7 +44,8 @@ bool ControlSet::sees_more_than(const Pixel& unbiased, const Pixel& cut) {
 }
 
 uint32_t ControlSet::unbiased_samples(double pilot) {
-    return uint32_t(std::clamp(constants::unbiased_share * std::pow(pilot, constants::stratified_gain), constants::fewest_control_samples, constants::most_control_samples));
+    return uint32_t(std::clamp(constants::unbiased_share * std::pow(pilot, constants::stratified_gain),
+                               constants::fewest_control_samples, constants::most_control_samples));
 }
 
 ControlSet::Effort ControlSet::effort(const Settings& settings, double covered_pixels, double affordable) {
@@ -44,10 +53,12 @@ ControlSet::Effort ControlSet::effort(const Settings& settings, double covered_p
     const double target = settings.target_error();
     const bool planned = settings.method() == Method::adaptive && target > 0;
     if (covered_pixels == 0 || !(biased || planned)) return {};
-    double pixels = std::min(constants::control_pixels + constants::control_part_beyond * covered_pixels, std::max(constants::most_control_part * covered_pixels, constants::control_pixels));
+    double pixels = std::min(constants::control_pixels + constants::control_part_beyond * covered_pixels,
+                             std::max(constants::most_control_part * covered_pixels, constants::control_pixels));
     double pilot = double(settings.samples()) * settings.accumulate(), samples = constants::control_gain * pilot;
     if (target > 0) {
-        pilot = std::clamp(std::pow(constants::expected_sample_error / target, 2 / constants::stratified_gain), constants::least_pilot_samples, constants::most_pilot_samples);
+        pilot = std::clamp(std::pow(constants::expected_sample_error / target, 2 / constants::stratified_gain),
+                           constants::least_pilot_samples, constants::most_pilot_samples);
         samples = constants::control_gain * pilot;
     }
     if (!cut) samples = unbiased_samples(pilot);
@@ -61,7 +72,9 @@ ControlSet::Effort ControlSet::effort(const Settings& settings, double covered_p
     samples = std::clamp(samples, constants::fewest_control_samples, constants::most_control_samples);
     // Where time alone is asked for there are no pilot samples.
     pilot = !planned && (!cut || settings.time_budget() > 0) ? 0 : cut ? samples / constants::control_gain : pilot;
-    const double part = covered_pixels > constants::few_covered_pixels ? std::min(pixels / covered_pixels, constants::most_small_control_part) : 1;
+    const double part = covered_pixels > constants::few_covered_pixels
+                            ? std::min(pixels / covered_pixels, constants::most_small_control_part)
+                            : 1;
     return {part, biased ? uint32_t(samples) : 0, uint32_t(pilot)};
 }
 
@@ -89,14 +102,20 @@ void BiasEstimate::add(double square, double estimated) {
 BiasEstimate::Bias BiasEstimate::beyond(double noise) const {
     if (estimated_.empty()) return {};
     const double estimated = std::accumulate(estimated_.begin(), estimated_.end(), 0.0);
-    if (!(estimated > 0)) return {std::max(std::accumulate(squares_.begin(), squares_.end(), 0.0) / double(squares_.size()) - noise, 0.0), 0};
+    if (!(estimated > 0))
+        return {std::max(std::accumulate(squares_.begin(), squares_.end(), 0.0) / double(squares_.size()) - noise, 0.0),
+                0};
     const double ratio = std::accumulate(squares_.begin(), squares_.end(), 0.0) / estimated;
     double variance = 0;  // of the ratio
-    for (size_t i = 0; i < estimated_.size(); ++i) variance += (1 - part_) * std::pow((squares_[i] - ratio * estimated_[i]) / estimated, 2);
-    // A ratio further from 1 than its standard error tells that such ratios were to be expected, as where a small source was missed.
+    for (size_t i = 0; i < estimated_.size(); ++i)
+        variance += (1 - part_) * std::pow((squares_[i] - ratio * estimated_[i]) / estimated, 2);
+    // A ratio further from 1 than its standard error tells that such ratios were to be expected, as where a small
+    // source was missed.
     const double surprise = std::max(std::abs(ratio - 1) - std::sqrt(variance), 0.0);
-    const double expected = constants::expected_uncertainty * constants::expected_uncertainty + surprise * surprise, weight = expected / (expected + variance);
-    return {noise * std::max(weight * (ratio - 1), constants::least_bias_ratio - 1), noise * std::sqrt(weight * variance)};
+    const double expected = constants::expected_uncertainty * constants::expected_uncertainty + surprise * surprise,
+                 weight = expected / (expected + variance);
+    return {noise * std::max(weight * (ratio - 1), constants::least_bias_ratio - 1),
+            noise * std::sqrt(weight * variance)};
 }
 
 double BiasEstimate::error() const {

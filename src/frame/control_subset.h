@@ -1,6 +1,7 @@
-// Passes that learn how much a frame's pixels err before they are shaded. Some pixels, chosen by chance, are the control subset. They are
-// shaded with four times the samples that a pixel of the frame will have; with as many as it will have (pilot samples); and, since a biased
-// sampler may miss the same light with any number of samples, some of them by a sampler without bias (docs/decisions/0010, 0017).
+// Passes that learn how much a frame's pixels err before they are shaded. Some pixels, chosen by chance, are the
+// control subset. They are shaded with four times the samples that a pixel of the frame will have; with as many as it
+// will have (pilot samples); and, since a biased sampler may miss the same light with any number of samples, some of
+// them by a sampler without bias (docs/decisions/0010, 0017).
 #pragma once
 
 #include <vector>
@@ -20,7 +21,8 @@ public:
     bool needs_control() const { return effort_.samples > 0; }
     bool needs_pilot() const { return effort_.pilot > 0; }
     bool needs_recheck() const;
-    // The first round plans so many samples a pixel: whether the subset has too few to tell of them; then it is to be shaded again.
+    // The first round plans so many samples a pixel: whether the subset has too few to tell of them; then it is to be
+    // shaded again.
     bool is_outgrown_by(double planned);
 
     // The passes.
@@ -41,19 +43,20 @@ private:
         size_t place;
         bool by_chance, differs;
     };
-    std::vector<ControlSet::Pixel> shade_alike(const std::vector<uint32_t>& pixels, const Settings& settings, uint32_t samples, uint32_t seed) const;
+    std::vector<ControlSet::Pixel> shade_alike(const std::vector<uint32_t>& pixels, const Settings& settings,
+                                               uint32_t samples, uint32_t seed) const;
     std::vector<Rechecked> choose_rechecked() const;
     double harmless_difference() const;
     double pilot_error() const;
 
     RunState& run_;
     ControlSet::Effort effort_;
-    std::vector<uint32_t> pixels_;        // y * width + x
+    std::vector<uint32_t> pixels_;  // y * width + x
     ControlSet control_;
     double part_ = 0;
-    std::vector<ControlSet::Pixel> pilots_;    // the same pixels with pilot samples
-    uint32_t pilot_samples_ = 0;          // of each; 0: there are none
-    uint32_t unbiased_samples_ = 0;       // of each pixel that was rechecked
+    std::vector<ControlSet::Pixel> pilots_;  // the same pixels with pilot samples
+    uint32_t pilot_samples_ = 0;             // of each; 0: there are none
+    uint32_t unbiased_samples_ = 0;          // of each pixel that was rechecked
     bool contradicted_ = false;
 };
 

@@ -1,4 +1,5 @@
-// The error of a finished round: noise from the spread of two replicates, interpolation from validation pixels, bias from the control set.
+// The error of a finished round: noise from the spread of two replicates, interpolation from validation pixels, bias
+// from the control set.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +29,8 @@ struct RoundPixels {
     std::vector<float> expected;  // luminance, as predicted; empty where nothing was
     std::vector<uint32_t> sample_count;
     std::vector<uint8_t> decision, material;
-    // Of the interpolated value in what a shaded pixel shows, in 255ths (frame/combine.h); empty: none. combined: whether radiance is
-    // that mean already, rather than the pixel's own value.
+    // Of the interpolated value in what a shaded pixel shows, in 255ths (frame/combine.h); empty: none. combined:
+    // whether radiance is that mean already, rather than the pixel's own value.
     std::vector<uint8_t> neighbour_part;
     bool combined = false;
 };
@@ -49,18 +50,21 @@ struct ErrorEstimate {
     };
     double mean_luminance = 0;
     double noise = 0;
-    // Standard error of it: where one sample dominates a pixel, that pixel's squared error is as uncertain as it is large.
+    // Standard error of it: where one sample dominates a pixel, that pixel's squared error is as uncertain as it is
+    // large.
     double noise_deviation = 0;
     // Noise over that of independent samples of the same variance: stratified samples have less.
     double stratification = 1;
     double interpolation = 0, interpolation_deviation = 0;  // the second: standard error of the first
-    // Error that control samples see beyond noise and interpolation; negative where the spreads estimate more than there is.
+    // Error that control samples see beyond noise and interpolation; negative where the spreads estimate more than
+    // there is.
     double bias = 0, bias_deviation = 0;
     std::vector<Slot> slots;
     std::vector<Tile> tiles;
 
     double error() const;
-    // Its parts, relative: where control samples see less error than the spreads estimate, there is less noise and no bias.
+    // Its parts, relative: where control samples see less error than the spreads estimate, there is less noise and no
+    // bias.
     double noise_error() const { return std::sqrt(noise + std::min(bias, 0.0)); }
     double interpolation_error() const { return std::sqrt(interpolation); }
     double bias_error() const { return std::sqrt(std::max(bias, 0.0)); }
@@ -68,26 +72,29 @@ struct ErrorEstimate {
 };
 
 // slot_of: BRDF slot of each instance, at its number. tiles: none where nothing is interpolated.
-ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots, const ControlSet& control,
-                             const Tiles& tiles);
+ErrorEstimate estimate_error(const RoundPixels& pixels, const std::vector<uint32_t>& slot_of, size_t slots,
+                             const ControlSet& control, const Tiles& tiles);
 
-// The same of the mean of several frames, from the estimate of the first. pixels: those of one frame, but for the radiance.
+// The same of the mean of several frames, from the estimate of the first. pixels: those of one frame, but for the
+// radiance.
 void average_error(const RoundPixels& pixels, const ControlSet& control, uint32_t frames, ErrorEstimate* estimate);
 
-// The relative error to be expected of each pixel; 0 where nothing is seen. shape: how the squared error of interpolation is
-// distributed over a slot's interpolated pixels, up to a factor. The root mean square over the covered pixels is error().
-std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate, const std::vector<uint32_t>& slot_of,
-                                const std::vector<float>& shape);
+// The relative error to be expected of each pixel; 0 where nothing is seen. shape: how the squared error of
+// interpolation is distributed over a slot's interpolated pixels, up to a factor. The root mean square over the covered
+// pixels is error().
+std::vector<float> pixel_errors(const RoundPixels& pixels, const ErrorEstimate& estimate,
+                                const std::vector<uint32_t>& slot_of, const std::vector<float>& shape);
 
-// Variance of the luminance that a pixel's own samples give, or that an interpolated one shows, as if samples were independent.
+// Variance of the luminance that a pixel's own samples give, or that an interpolated one shows, as if samples were
+// independent.
 double variance_of_mean(const RoundPixels& pixels, size_t at);
 // The part of the interpolated value in what a shaded pixel shows.
 double neighbour_part(const RoundPixels& pixels, size_t at);
 
 // Mean luminance of the covered pixels.
 double mean_luminance(const RoundPixels& pixels);
-// Squared noise over what the spreads of the replicates estimate, at most 1, by the control pixels' own values. Error beyond the spreads is
-// no noise by which two neighbours would differ.
+// Squared noise over what the spreads of the replicates estimate, at most 1, by the control pixels' own values. Error
+// beyond the spreads is no noise by which two neighbours would differ.
 double spread_calibration(const RoundPixels& pixels, const ControlSet& control, double mean_luminance);
 
 }  // namespace lightband

@@ -25,8 +25,8 @@ std::vector<float> scaled(std::vector<float> values, double unit) {
     return values;
 }
 
-// Eq. 9 as printed bounds a mirror's variance so loosely that the bound may be beyond a float's range: then it is the largest float, in a
-// shader's units and in the map's.
+// Eq. 9 as printed bounds a mirror's variance so loosely that the bound may be beyond a float's range: then it is the
+// largest float, in a shader's units and in the map's.
 std::vector<float> scaled_bound(std::vector<float> values, double unit) {
     constexpr float most = std::numeric_limits<float>::max();
     for (float& value : values)
@@ -34,24 +34,28 @@ std::vector<float> scaled_bound(std::vector<float> values, double unit) {
     return values;
 }
 
-double luminance_of(const float* rgb) { return luminance(Vec3(rgb[0], rgb[1], rgb[2])); }
+double luminance_of(const float* rgb) {
+    return luminance(Vec3(rgb[0], rgb[1], rgb[2]));
+}
 
-// How interpolation's squared error is spread over the pixels, up to a factor: linear interpolation errs by the square of
-// bandwidth times spacing.
+// How interpolation's squared error is spread over the pixels, up to a factor: linear interpolation errs by the square
+// of bandwidth times spacing.
 std::vector<float> interpolation_shape(const FrameResult& r) {
     std::vector<float> shape(r.pixels());
     if (!r.prediction || !r.prediction->pyramids) return shape;
     const std::vector<float> bandwidth = read_floats(r.prediction->bandwidth, GL_BLUE, r.pixels(), 1);
     for (size_t i = 0; i < shape.size(); ++i) {
         const uint32_t bits = uint32_t(i % r.width) | uint32_t(i / r.width);
-        const int level = 1 + (bits == 0 ? 0 : int(std::log2(double(bits & (~bits + 1)))));  // log2 of the spacing between two parents
+        const int level =
+            1 +
+            (bits == 0 ? 0 : int(std::log2(double(bits & (~bits + 1)))));  // log2 of the spacing between two parents
         shape[i] = float(std::pow(bandwidth[i] * std::ldexp(1.0, level), 4));
     }
     return shape;
 }
 
-// Frames that do not interpolate need no pyramids, nor do those whose shares do not follow variance need that one: theirs
-// are made when they are asked for, of the bandwidth as it is.
+// Frames that do not interpolate need no pyramids, nor do those whose shares do not follow variance need that one:
+// theirs are made when they are asked for, of the bandwidth as it is.
 HostArray pyramid(gl::Device& device, const FrameResult& r, const std::string& name) {
     std::optional<Pyramids> made;
     const bool variances = name == "variance_pyramid";
@@ -68,9 +72,11 @@ HostArray pyramid(gl::Device& device, const FrameResult& r, const std::string& n
     const Pyramids& pyramids = made ? *made : *r.prediction->pyramids;
     const size_t count = size_t(r.width) * pyramids.height;
     if (variances)
-        return HostArray::of(LB_TYPE_FLOAT32, {pyramids.height, r.width}, "", read_floats(pyramids.variances, GL_RED, count, 1));
+        return HostArray::of(LB_TYPE_FLOAT32, {pyramids.height, r.width}, "",
+                             read_floats(pyramids.variances, GL_RED, count, 1));
     std::vector<uint8_t> levels = read_bytes(pyramids.levels, count);
-    if (name == "level_pyramid") return HostArray::of(LB_TYPE_UINT8, {pyramids.height, r.width}, "log2(pixel)", std::move(levels));
+    if (name == "level_pyramid")
+        return HostArray::of(LB_TYPE_UINT8, {pyramids.height, r.width}, "log2(pixel)", std::move(levels));
     levels.resize(r.pixels());
     for (size_t i = 0; i < levels.size(); ++i)
         if (r.material[i] == 0) levels[i] = 0;
@@ -84,9 +90,11 @@ HostArray scalar(const FrameResult& r, std::vector<float> values, const char* un
 // What the geometry pass saw.
 HostArray seen(const FrameResult& r, const std::string& name) {
     if (name == "normal")
-        return HostArray::of(LB_TYPE_FLOAT32, {r.height, r.width, 3}, "", read_floats(r.gbuffer.surface, GL_RGB, r.pixels(), 3));
+        return HostArray::of(LB_TYPE_FLOAT32, {r.height, r.width, 3}, "",
+                             read_floats(r.gbuffer.surface, GL_RGB, r.pixels(), 3));
     std::vector<float> depth = alpha_of(read_floats(r.gbuffer.surface, GL_RGBA, r.pixels(), 4));
-    for (size_t i = 0; i < r.pixels(); ++i) depth[i] = r.material[i] != 0 ? std::abs(depth[i]) : std::numeric_limits<float>::infinity();
+    for (size_t i = 0; i < r.pixels(); ++i)
+        depth[i] = r.material[i] != 0 ? std::abs(depth[i]) : std::numeric_limits<float>::infinity();
     if (name == "depth") return scalar(r, std::move(depth), "metre");
     std::vector<float> position(3 * r.pixels());
     for (size_t i = 0; i < r.pixels(); ++i) {
@@ -99,13 +107,17 @@ HostArray seen(const FrameResult& r, const std::string& name) {
 
 HostArray predicted(gl::Device& device, const FrameResult& r, const std::string& name) {
     const Prediction& prediction = *r.prediction;
-    const auto bandwidth = [&](GLenum component) { return read_floats(prediction.bandwidth, component, r.pixels(), 1); };
+    const auto bandwidth = [&](GLenum component) {
+        return read_floats(prediction.bandwidth, component, r.pixels(), 1);
+    };
     if (name == "bandwidth_spatial") return scalar(r, bandwidth(GL_RED), "1/metre");
     if (name == "bandwidth_angular") return scalar(r, bandwidth(GL_GREEN), "1/radian");
     if (name == "bandwidth_image") return scalar(r, bandwidth(GL_BLUE), "1/pixel");
-    if (name == "curvature") return scalar(r, alpha_of(read_floats(prediction.bandwidth, GL_RGBA, r.pixels(), 4)), "1/metre");
+    if (name == "curvature")
+        return scalar(r, alpha_of(read_floats(prediction.bandwidth, GL_RGBA, r.pixels(), 4)), "1/metre");
     if (name == "variance_predicted")
-        return scalar(r, scaled_bound(read_floats(prediction.prediction, GL_RED, r.pixels(), 1), r.squared_unit()), "radiance^2");
+        return scalar(r, scaled_bound(read_floats(prediction.prediction, GL_RED, r.pixels(), 1), r.squared_unit()),
+                      "radiance^2");
     return pyramid(device, r, name);
 }
 
@@ -125,11 +137,13 @@ HostArray shaded(const FrameResult& r, const std::string& name) {
         for (uint8_t& decision : decisions) decision = is_shaded(decision);
         return HostArray::of(LB_TYPE_UINT8, {r.height, r.width}, "", std::move(decisions));
     }
-    if (name == "error") return scalar(r, pixel_errors(r.read_round(), r.estimate, r.slot_of, interpolation_shape(r)), "");
+    if (name == "error")
+        return scalar(r, pixel_errors(r.read_round(), r.estimate, r.slot_of, interpolation_shape(r)), "");
     std::vector<uint32_t> counts = read_words(r.shading.sample_count, r.pixels());
     if (name == "sample_count") return HostArray::of(LB_TYPE_UINT32, {r.height, r.width}, "sample", std::move(counts));
     // variance_measured: the samples' own, unbiased; rounding may leave a constant integrand slightly below zero.
-    const std::vector<float> radiance = r.accumulated.empty() ? read_floats(r.shading.radiance, GL_RGBA, r.pixels(), 4) : r.accumulated;
+    const std::vector<float> radiance =
+        r.accumulated.empty() ? read_floats(r.shading.radiance, GL_RGBA, r.pixels(), 4) : r.accumulated;
     std::vector<float> variance(r.pixels());
     for (size_t i = 0; i < r.pixels(); ++i) {
         if (counts[i] < 2) continue;
@@ -151,7 +165,8 @@ HostArray field(gl::Device& device, const FrameResult& r, const std::string& nam
     }
     if (known->predicted && !r.prediction)
         throw Error(LB_ERROR_INVALID_STATE, text("field ", name, ": a frame of method reference predicts nothing"));
-    if (name == "material") return HostArray::of(LB_TYPE_UINT8, {r.height, r.width}, "instance + 1", std::vector<uint8_t>(r.material));
+    if (name == "material")
+        return HostArray::of(LB_TYPE_UINT8, {r.height, r.width}, "instance + 1", std::vector<uint8_t>(r.material));
     if (known->predicted) return predicted(device, r, name);
     if (name == "depth" || name == "position" || name == "normal") return seen(r, name);
     return shaded(r, name);

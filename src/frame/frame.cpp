@@ -13,7 +13,8 @@ Frame::Frame(gl::DevicePtr device, uint32_t width, uint32_t height)
 }
 
 void Frame::check(const Scene& scene) const {
-    if (scene.device() != device_) throw Error(LB_ERROR_INVALID_ARGUMENT, "scene belongs to another context than frame");
+    if (scene.device() != device_)
+        throw Error(LB_ERROR_INVALID_ARGUMENT, "scene belongs to another context than frame");
     if (!scene.camera) throw Error(LB_ERROR_INVALID_STATE, "the scene has no camera");
     const bool controlled = settings.target_error() > 0 || settings.time_budget() > 0;
     if (controlled && settings.accumulate() > 1)
@@ -43,6 +44,8 @@ std::string Frame::explain() const {
     return result().record.text(result().plan, result().stats.milliseconds, result().settings.pass_times());
 }
 
-HostArray Frame::field(const std::string& name) const { return lightband::field(*device_, result(), name); }
+HostArray Frame::field(const std::string& name) const {
+    return lightband::field(*device_, result(), name);
+}
 
 }  // namespace lightband

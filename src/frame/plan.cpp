@@ -23,8 +23,11 @@ std::string joined(const std::vector<std::string>& names) {
 
 // The shading integral of listed pixels, wherever it is computed.
 PlannedPass shading(const char* name, const std::string& reason, const Settings& settings) {
-    return {name, reason, variant_of(settings, {"sampler", "sequence", "brdf_lookup", "environment_lookup"}),
-            {"surface", "material", "decision", "shading_list"}, {"radiance", "spread", "sample_count"}};
+    return {name,
+            reason,
+            variant_of(settings, {"sampler", "sequence", "brdf_lookup", "environment_lookup"}),
+            {"surface", "material", "decision", "shading_list"},
+            {"radiance", "spread", "sample_count"}};
 }
 
 std::vector<PlannedPass> planned_passes(const Settings& settings, const PlanInput& input) {
@@ -33,33 +36,50 @@ std::vector<PlannedPass> planned_passes(const Settings& settings, const PlanInpu
     const bool biased = settings.sampler() == Sampler::cut || settings.sampler() == Sampler::filtered;
     const bool target = adaptive && settings.target_error() > 0;
     std::vector<PlannedPass> passes;
-    passes.push_back({"gbuffer", text(input.instances, " instances, rasterised"), "", {}, {"surface", "material", "depth"}});
+    passes.push_back(
+        {"gbuffer", text(input.instances, " instances, rasterised"), "", {}, {"surface", "material", "depth"}});
     passes.push_back({"covered", "list of the pixels that see a mesh", "", {"material"}, {"covered"}});
     const bool lit = input.lights > 0;  // else the picture is black
     if (adaptive && lit)
-        passes.push_back({"environment", "bandwidth of lights and lobes, tables of the sampler; made once for each light and material",
-                          variant_of(settings, {"band_rule", "sampler", "split_suns"}), {}, {}});
+        passes.push_back({"environment",
+                          "bandwidth of lights and lobes, tables of the sampler; made once for each light and material",
+                          variant_of(settings, {"band_rule", "sampler", "split_suns"}),
+                          {},
+                          {}});
     if (adaptive)
         passes.push_back({"bandwidth",
-                          lit ? text("equations 5, 6 and 9 with ", settings.pilots(), " directions a pixel") : "curvature alone: there is no light",
-                          variant_of(settings, {"transport", "variance", "sampler"}), {"surface", "material", "covered"},
+                          lit ? text("equations 5, 6 and 9 with ", settings.pilots(), " directions a pixel")
+                              : "curvature alone: there is no light",
+                          variant_of(settings, {"transport", "variance", "sampler"}),
+                          {"surface", "material", "covered"},
                           {"bandwidth", "prediction"}});
     if (!lit) return passes;
     if (adaptive && biased)
-        passes.push_back(shading("control", "some pixels with four times the samples, which tell how much the others err", settings));
+        passes.push_back(shading(
+            "control", "some pixels with four times the samples, which tell how much the others err", settings));
     if (target || (adaptive && settings.sampler() == Sampler::cut && !(settings.time_budget() > 0)))
-        passes.push_back(shading("pilot", "the same pixels with as many samples as are expected, which tell how much samples vary", settings));
+        passes.push_back(
+            shading("pilot", "the same pixels with as many samples as are expected, which tell how much samples vary",
+                    settings));
     if (adaptive && settings.sampler() == Sampler::cut) {
         passes.push_back(shading("recheck", "some of these pixels by a sampler without bias", settings));
-        passes.push_back(shading("replace", "another sampler, where the light cut does not converge to what was seen without bias", settings));
+        passes.push_back(shading("replace",
+                                 "another sampler, where the light cut does not converge to what was seen without bias",
+                                 settings));
     }
     if (interpolates)
         passes.push_back({"pyramids",
-                          settings.shares_follow_variance() ? "least level and largest variance of each block" : "least level of each block",
-                          "", {"covered", "bandwidth", "prediction"}, {"levels"}});
+                          settings.shares_follow_variance() ? "least level and largest variance of each block"
+                                                            : "least level of each block",
+                          "",
+                          {"covered", "bandwidth", "prediction"},
+                          {"levels"}});
     if (interpolates && settings.shares_follow_variance()) passes.back().writes.push_back("variances");
-    PlannedPass classify{"classify", interpolates ? "shade or interpolate" : "every covered pixel is shaded",
-                         adaptive ? variant_of(settings, {"allocation"}) : "", {"surface", "material", "covered"}, {"decision"}};
+    PlannedPass classify{"classify",
+                         interpolates ? "shade or interpolate" : "every covered pixel is shaded",
+                         adaptive ? variant_of(settings, {"allocation"}) : "",
+                         {"surface", "material", "covered"},
+                         {"decision"}};
     if (adaptive) classify.reads.insert(classify.reads.end(), {"bandwidth", "prediction", "sample_count"});
     if (interpolates) {
         classify.reads.push_back("levels");
@@ -67,18 +87,35 @@ std::vector<PlannedPass> planned_passes(const Settings& settings, const PlanInpu
         classify.writes.push_back("weights");
     }
     passes.push_back(classify);
-    passes.push_back({"list", "pixels to shade, those with the most samples first", "", {"covered", "decision", "material"}, {"shading_list"}});
+    passes.push_back({"list",
+                      "pixels to shade, those with the most samples first",
+                      "",
+                      {"covered", "decision", "material"},
+                      {"shading_list"}});
     passes.push_back(shading("shade", text("the shading integral, ", input.materials, " materials"), settings));
     if (interpolates)
-        passes.push_back({"upsample", "pixels between shaded ones; at shaded ones, what interpolation would show", "",
-                          {"covered", "decision", "weights", "sample_count", "radiance", "spread"}, {"radiance", "spread"}});
-    passes.push_back({"estimate", "the error of what is shown", "",
-                      {"radiance", "spread", "sample_count", "decision", "material"}, {}});
+        passes.push_back({"upsample",
+                          "pixels between shaded ones; at shaded ones, what interpolation would show",
+                          "",
+                          {"covered", "decision", "weights", "sample_count", "radiance", "spread"},
+                          {"radiance", "spread"}});
+    passes.push_back({"estimate",
+                      "the error of what is shown",
+                      "",
+                      {"radiance", "spread", "sample_count", "decision", "material"},
+                      {}});
     if (interpolates)
-        passes.push_back({"combine", "shaded pixels joined with what is interpolated there", "",
-                          {"covered", "decision", "weights", "sample_count", "radiance"}, {"radiance"}});
+        passes.push_back({"combine",
+                          "shaded pixels joined with what is interpolated there",
+                          "",
+                          {"covered", "decision", "weights", "sample_count", "radiance"},
+                          {"radiance"}});
     if (settings.background())
-        passes.push_back({"background", "the lights behind the meshes", variant_of(settings, {"environment_lookup"}), {"material"}, {"radiance"}});
+        passes.push_back({"background",
+                          "the lights behind the meshes",
+                          variant_of(settings, {"environment_lookup"}),
+                          {"material"},
+                          {"radiance"}});
     return passes;
 }
 
@@ -87,7 +124,8 @@ std::vector<PlannedPass> planned_passes(const Settings& settings, const PlanInpu
 uint64_t bytes_of(const FrameBuffer& buffer, const PlanInput& input, uint32_t coarsest_level) {
     uint64_t rows = input.height;
     if (buffer.pyramid)
-        for (uint32_t level = 1, height = input.height; level <= coarsest_level; ++level) rows += height = (height + 1) / 2;
+        for (uint32_t level = 1, height = input.height; level <= coarsest_level; ++level)
+            rows += height = (height + 1) / 2;
     return rows * input.width * buffer.bytes;
 }
 
@@ -103,7 +141,8 @@ Plan::Plan(const Settings& settings, const PlanInput& input) : passes_(planned_p
 }
 
 const PlannedPass* Plan::find(std::string_view name) const {
-    const auto found = std::find_if(passes_.begin(), passes_.end(), [&](const PlannedPass& pass) { return pass.name == name; });
+    const auto found =
+        std::find_if(passes_.begin(), passes_.end(), [&](const PlannedPass& pass) { return pass.name == name; });
     return found == passes_.end() ? nullptr : &*found;
 }
 

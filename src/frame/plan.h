@@ -1,5 +1,5 @@
-// What a frame will do: a list of passes that follows from scene and settings, before anything runs (docs/how-a-frame-is-made.md). A frame
-// runs what its plan holds and nothing else.
+// What a frame will do: a list of passes that follows from scene and settings, before anything runs
+// (docs/how-a-frame-is-made.md). A frame runs what its plan holds and nothing else.
 #pragma once
 
 #include <cstdint>
@@ -44,10 +44,10 @@ struct FrameBuffer {
     bool pyramid;    // whether coarser levels lie below the picture
 };
 constexpr FrameBuffer frame_buffers[] = {
-    {"surface", 16, false},      {"material", 1, false}, {"depth", 4, false},       {"covered", 4, false},
-    {"bandwidth", 16, false},    {"prediction", 8, false}, {"levels", 1, true},     {"variances", 4, true},
-    {"weights", 8, false},       {"decision", 1, false}, {"sample_count", 4, false}, {"shading_list", 4, false},
-    {"radiance", 16, false},     {"spread", 16, false},
+    {"surface", 16, false},   {"material", 1, false},   {"depth", 4, false},        {"covered", 4, false},
+    {"bandwidth", 16, false}, {"prediction", 8, false}, {"levels", 1, true},        {"variances", 4, true},
+    {"weights", 8, false},    {"decision", 1, false},   {"sample_count", 4, false}, {"shading_list", 4, false},
+    {"radiance", 16, false},  {"spread", 16, false},
 };
 uint64_t bytes_of(const FrameBuffer& buffer, const PlanInput& input, uint32_t coarsest_level);
 

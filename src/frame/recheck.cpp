@@ -16,23 +16,33 @@ struct Mean {
         squares += value * value;
     }
     double mean() const { return sum / count; }
-    double error() const { return std::sqrt(std::max(squares / count - mean() * mean(), 0.0) / std::max(count - 1, 1.0)); }
-    double error_at_least(double of_one) const { return count < constants::few_rechecked ? std::max(error(), of_one / std::sqrt(count)) : error(); }
+    double error() const {
+        return std::sqrt(std::max(squares / count - mean() * mean(), 0.0) / std::max(count - 1, 1.0));
+    }
+    double error_at_least(double of_one) const {
+        return count < constants::few_rechecked ? std::max(error(), of_one / std::sqrt(count)) : error();
+    }
 };
 
-double clamped(double difference) { return std::clamp(difference, -1.0, 1.0); }
+double clamped(double difference) {
+    return std::clamp(difference, -1.0, 1.0);
+}
 
 }  // namespace
 
 Recheck recheck(const std::vector<RecheckedPixel>& pixels, const RecheckSamples& samples) {
     if (pixels.empty()) return {};
-    // A cut's error falls as n^(-g / 2): so much of the difference between its two numbers of samples is left at the larger one.
-    const double part = std::pow(samples.few / samples.many, 0.5 * constants::stratified_gain), left = part / (1 - part);
+    // A cut's error falls as n^(-g / 2): so much of the difference between its two numbers of samples is left at the
+    // larger one.
+    const double part = std::pow(samples.few / samples.many, 0.5 * constants::stratified_gain),
+                 left = part / (1 - part);
     Mean differences, cut, unbiased, independent;
     for (const RecheckedPixel& pixel : pixels) {
         const double converged = pixel.many + left * clamped(pixel.many - pixel.few);
         differences.add(clamped(converged - pixel.unbiased));
-        const double spread = double(pixels.size()) < constants::few_rechecked ? std::max(std::abs(pixel.spread), pixel.deviation) : pixel.spread;
+        const double spread = double(pixels.size()) < constants::few_rechecked
+                                  ? std::max(std::abs(pixel.spread), pixel.deviation)
+                                  : pixel.spread;
         const double square = std::min(spread * spread, constants::largest_square);
         cut.add(std::pow(clamped(pixel.many - pixel.unbiased), 2) - square);
         unbiased.add(square);
@@ -45,7 +55,8 @@ Recheck recheck(const std::vector<RecheckedPixel>& pixels, const RecheckSamples&
 }
 
 bool Recheck::contradicts(double harmless) const {
-    return std::abs(difference) > std::max(constants::sure_difference_errors * difference_error, harmless) || cut - constants::worse_errors * cut_error > unbiased;
+    return std::abs(difference) > std::max(constants::sure_difference_errors * difference_error, harmless) ||
+           cut - constants::worse_errors * cut_error > unbiased;
 }
 
 }  // namespace lightband

@@ -32,7 +32,8 @@ std::string Record::text(const Plan& plan, double total, bool timed) const {
     for (const PlannedPass& pass : plan.passes())
         for (const Entry& entry : entries_) {
             if (entry.name != pass.name) continue;
-            out += at_left(entry.name, pass_name_width) + (timed ? time(entry.milliseconds) : std::string()) + megabytes(pass.bytes);
+            out += at_left(entry.name, pass_name_width) + (timed ? time(entry.milliseconds) : std::string()) +
+                   megabytes(pass.bytes);
             out += at_right(lightband::text(entry.invocations), 12) + ' ' + at_left(entry.unit, 8) + "  " + pass.reason;
             out += (entry.note.empty() ? "" : "; " + entry.note) + '\n';
         }

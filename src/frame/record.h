@@ -14,7 +14,7 @@ namespace lightband {
 struct Done {
     uint64_t invocations = 0;  // pixels, list entries or light samples
     const char* unit = "pixels";
-    std::string note{};        // what was found out; empty: nothing that the plan did not know
+    std::string note{};  // what was found out; empty: nothing that the plan did not know
 };
 
 class Record {
@@ -30,8 +30,8 @@ public:
     // Corrects what a pass did, where that is known only later.
     void count(std::string_view name, uint64_t invocations);
     double milliseconds_of(std::string_view name) const;
-    // In the order of the plan, the passes that ran; total: milliseconds of the whole frame; timed: whether each pass was waited for, so
-    // that its time is known.
+    // In the order of the plan, the passes that ran; total: milliseconds of the whole frame; timed: whether each pass
+    // was waited for, so that its time is known.
     std::string text(const Plan& plan, double total, bool timed) const;
 
 private:

@@ -26,10 +26,12 @@ RoundPixels FrameResult::read_round() const {
 std::vector<float> FrameResult::areas() const {
     if (!prediction || !prediction->pyramids) return {};
     std::vector<float> areas(pixels(), 1);
-    const std::vector<uint8_t> levels = read_bytes(prediction->pyramids->levels, size_t(width) * prediction->pyramids->height);
+    const std::vector<uint8_t> levels =
+        read_bytes(prediction->pyramids->levels, size_t(width) * prediction->pyramids->height);
     for (size_t i = 0; i < areas.size(); ++i) {
         const uint32_t x = uint32_t(i % width), y = uint32_t(i / width);
-        areas[i] = std::ldexp(1.0f, 2 * int(std::min(lattice_level(x, y, settings.coarsest_level()), uint32_t(levels[i]))));
+        areas[i] =
+            std::ldexp(1.0f, 2 * int(std::min(lattice_level(x, y, settings.coarsest_level()), uint32_t(levels[i]))));
     }
     return areas;
 }

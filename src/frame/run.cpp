@@ -17,15 +17,15 @@
 namespace lightband {
 namespace {
 
-// Samples of a round from which on it draws new directions of the map: the 65,536 of one seed would limit the error. Drawing them costs as
-// much as half a million samples or so.
+// Samples of a round from which on it draws new directions of the map: the 65,536 of one seed would limit the error.
+// Drawing them costs as much as half a million samples or so.
 constexpr uint64_t worth_new_points = 1u << 23;
 
-// Of a frame that is asked for an error it is not known how many rounds will come. Further ones, with what lies between them, are expected
-// to take this part of the time that the shading of the last one took.
+// Of a frame that is asked for an error it is not known how many rounds will come. Further ones, with what lies between
+// them, are expected to take this part of the time that the shading of the last one took.
 constexpr double further_rounds = 0.25;
-// Before the first is planned, a covered pixel is expected to get so many times its pilot samples: README's picture got 2.1, 1.6 and 2.2
-// times as many where 5, 2 and 1 % were asked for.
+// Before the first is planned, a covered pixel is expected to get so many times its pilot samples: README's picture
+// got 2.1, 1.6 and 2.2 times as many where 5, 2 and 1 % were asked for.
 constexpr double times_pilot_samples = 2;
 // Milliseconds that every frame takes after its shading.
 constexpr double least_left = 1;
@@ -62,10 +62,17 @@ const Run::NamedPass Run::passes_by_name[] = {
     {"background", [](Run& run) { return run.background(); }},
 };
 
-Run::Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Throughput& throughput,
-         const Progress& progress)
-    : state_{device, scene, settings, settings, Meter(progress), scene.slots(), passes::slot_table(device.gl(), scene.slots()),
-             Lights(scene.lights(), settings), throughput,
+Run::Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height,
+         const Throughput& throughput, const Progress& progress)
+    : state_{device,
+             scene,
+             settings,
+             settings,
+             Meter(progress),
+             scene.slots(),
+             passes::slot_table(device.gl(), scene.slots()),
+             Lights(scene.lights(), settings),
+             throughput,
              std::make_shared<FrameResult>(device.gl(), settings, width, height,
                                            Plan(settings, plan_input(scene, scene.slots(), width, height)))} {
 #if defined(LIGHTBAND_STUDY)
@@ -121,8 +128,8 @@ Done Run::geometry() {
 }
 
 Done Run::list_covered() {
-    state_.covered = passes::covered(state_.device.gl(), next().gbuffer, next().width, next().height, state_.asked.coarsest_level(),
-                                     &next().material);
+    state_.covered = passes::covered(state_.device.gl(), next().gbuffer, next().width, next().height,
+                                     state_.asked.coarsest_level(), &next().material);
     return {next().pixels()};
 }
 
@@ -141,15 +148,15 @@ Done Run::make_tables() {
     }
     report_preparation();
     const size_t split = state_.lights.split();
-    return {state_.slots.materials.size(), "materials", 
+    return {state_.slots.materials.size(), "materials",
             text(two_decimals(double(state_.scene.light_bytes()) / 1e6), " MB held by lights",
                  split > 0 ? text(", ", split, " suns split off the map") : "")};
 }
 
 Done Run::predict() {
     const Prediction& prediction = next().prediction.emplace(state_.device.gl(), next().width, next().height);
-    passes::predict(state_.device, state_.scene, state_.lights, state_.slots, state_.slot_of, state_.asked, next().height, state_.covered, next().gbuffer,
-                    prediction);
+    passes::predict(state_.device, state_.scene, state_.lights, state_.slots, state_.slot_of, state_.asked,
+                    next().height, state_.covered, next().gbuffer, prediction);
     state_.forecast = passes::forecast(state_.device, state_.covered, prediction, next().height);
     next().mean_radiance = state_.forecast.mean_radiance;
     return {state_.covered.all.count};
@@ -178,27 +185,29 @@ Done Run::make_levels() {
     const Scales& scales = control_->scales();
     scales_ = scales.of;
     const auto [least, most] = std::minmax_element(scales_.begin(), scales_.end());
-    passes::pyramids(state_.device, state_.forecast, scales, state_.settings, state_.covered, next().width, next().height,
-                     *next().prediction, *next().prediction->pyramids);
+    passes::pyramids(state_.device, state_.forecast, scales, state_.settings, state_.covered, next().width,
+                     next().height, *next().prediction, *next().prediction->pyramids);
     return {next().pixels(), "pixels", text("bandwidth times ", *least, " to ", *most)};
 }
 
 Done Run::classify() {
     const Prediction* prediction = next().prediction ? &*next().prediction : nullptr;
     const bool interpolates = prediction != nullptr && prediction->pyramids;
-    const passes::Criteria criteria{state_.settings,
-                                    state_.lights,
-                                    {control_->validation_part(), subset_.part(), state_.asked.seed(), next().stats.rounds},
-                                    control_->tolerance(),
-                                    resampling_.bins,
-                                    int(std::lround(bins_per_octave * std::log2(growth_)))};
-    counts_ = passes::classify(state_.device, state_.slot_of, next().slots, criteria, state_.forecast, next().width, state_.covered,
-                               next().gbuffer, prediction, next().shading);
+    const passes::Criteria criteria{
+        state_.settings,
+        state_.lights,
+        {control_->validation_part(), subset_.part(), state_.asked.seed(), next().stats.rounds},
+        control_->tolerance(),
+        resampling_.bins,
+        int(std::lround(bins_per_octave * std::log2(growth_)))};
+    counts_ = passes::classify(state_.device, state_.slot_of, next().slots, criteria, state_.forecast, next().width,
+                               state_.covered, next().gbuffer, prediction, next().shading);
     return {state_.covered.all.count, "pixels", interpolates || !prediction ? "" : "every covered pixel is shaded"};
 }
 
 Done Run::list_shaded() {
-    list_ = passes::shading_list(state_.device, state_.slot_of, counts_, control_->budget(), state_.covered, next().gbuffer, next().shading);
+    list_ = passes::shading_list(state_.device, state_.slot_of, counts_, control_->budget(), state_.covered,
+                                 next().gbuffer, next().shading);
     return {state_.covered.all.count};
 }
 
@@ -206,7 +215,8 @@ Done Run::shade() {
     const auto report = [&](uint64_t samples) { report_shading(double(samples)); };
     state_.meter.begin();
     report(0);
-    passes::shade(state_.device, state_.lights, state_.slots, state_.settings, seeds_, list_, next().gbuffer, next().shading, report);
+    passes::shade(state_.device, state_.lights, state_.slots, state_.settings, seeds_, list_, next().gbuffer,
+                  next().shading, report);
     return {list_.total_samples, "samples", text(list_.pixels, " pixels")};
 }
 
@@ -217,8 +227,8 @@ Done Run::upsample() {
 
 Done Run::estimate() {
     RoundPixels pixels = next().read_round();
-    pixels.neighbour_part = neighbour_parts(pixels, subset_.control(), tiles_, next().width, state_.asked.coarsest_level(),
-                                            state_.asked.accumulate());
+    pixels.neighbour_part = neighbour_parts(pixels, subset_.control(), tiles_, next().width,
+                                            state_.asked.coarsest_level(), state_.asked.accumulate());
     next().estimate = estimate_error(pixels, next().slot_of, next().slots, subset_.control(), tiles_);
     samples_ = std::accumulate(pixels.sample_count.begin(), pixels.sample_count.end(), uint64_t(0));
     // A pixel was sampled again from the start or left as it was.
@@ -233,7 +243,8 @@ Done Run::estimate() {
     next().record.count("shade", samples_);
     const ErrorEstimate& found = next().estimate;
     return {next().pixels(), "pixels",
-            text("by noise ", found.noise_error(), ", by interpolation ", found.interpolation_error(), ", by bias ", found.bias_error())};
+            text("by noise ", found.noise_error(), ", by interpolation ", found.interpolation_error(), ", by bias ",
+                 found.bias_error())};
 }
 
 // ---- Rounds --------------------------------------------------------------------------------------------
@@ -263,14 +274,16 @@ void Run::decide(ErrorControl* control) {
 bool Run::plan_round(ErrorControl* control) {
     const bool first = next().stats.rounds == 1;
     if (!first) {
-        resampling_ = plan_resampling(pixels_, control->interpolates() ? next().areas() : std::vector<float>(), next().estimate.mean_luminance,
-                         state_.asked.allocation(), control->budget(), control->wanted_part());
+        resampling_ = plan_resampling(pixels_, control->interpolates() ? next().areas() : std::vector<float>(),
+                                      next().estimate.mean_luminance, state_.asked.allocation(), control->budget(),
+                                      control->wanted_part());
         growth_ *= resampling_.growth;
     }
     decide(control);
     if (control->replan(counts_.bins(), state_.elapsed())) decide(control);
     const Histogram new_pixels = counts_.new_bins();
-    const Budget& budget = first ? control->plan(new_pixels, state_.elapsed()) : control->plan_further(resampling_.sampled, new_pixels, state_.elapsed());
+    const Budget& budget = first ? control->plan(new_pixels, state_.elapsed())
+                                 : control->plan_further(resampling_.sampled, new_pixels, state_.elapsed());
     planned_ = round_samples(resampling_.sampled, new_pixels, budget);
     if (first && subset_.is_outgrown_by(planned_.samples / std::max(planned_.pixels, 1.0))) {
         pass("control");  // in targets that hold nothing yet but decisions, which are lost
@@ -325,13 +338,15 @@ bool Run::rounds() {
 
 // Makes shaded pixels show the mean that the estimate is of.
 Done Run::combine() {
-    passes::combine(state_.device, state_.covered, *next().prediction->pyramids, pixels_.neighbour_part, next().width, next().shading);
+    passes::combine(state_.device, state_.covered, *next().prediction->pyramids, pixels_.neighbour_part, next().width,
+                    next().shading);
     next().neighbour_part = pixels_.neighbour_part;
     return {state_.covered.all.count};
 }
 
 Done Run::background() {
-    passes::background(state_.device, state_.lights, state_.asked, next().width, next().height, next().gbuffer, next().shading);
+    passes::background(state_.device, state_.lights, state_.asked, next().width, next().height, next().gbuffer,
+                       next().shading);
     return {next().pixels()};
 }
 
@@ -372,7 +387,8 @@ void Run::finish() {
     stats.bent_normals = counts_.bent;
     stats.samples = samples_;
     stats.device_bytes = state_.scene.device_bytes() + result.gbuffer.bytes() + state_.covered.entries.bytes() +
-                         (result.prediction ? result.prediction->bytes() : 0) + result.shading.bytes() + list_.entries.bytes();
+                         (result.prediction ? result.prediction->bytes() : 0) + result.shading.bytes() +
+                         list_.entries.bytes();
     stats.error = result.estimate.error();
     stats.noise_error = result.estimate.noise_error();
     stats.interpolation_error = result.estimate.interpolation_error();
@@ -391,14 +407,17 @@ double Run::expected_shading() const {
     const Settings& settings = state_.asked;
     if (settings.time_budget() > 0) return settings.time_budget();
     const double covered = state_.covered.all.count;
-    const double each = settings.target_error() > 0 ? times_pilot_samples * ControlSet::effort(settings, covered, 0).pilot
-                                                    : double(settings.samples()) * settings.accumulate();
+    const double each = settings.target_error() > 0
+                            ? times_pilot_samples * ControlSet::effort(settings, covered, 0).pilot
+                            : double(settings.samples()) * settings.accumulate();
     return covered * (constants::pixel_samples + each) / state_.throughput.samples_per_millisecond;
 }
 
-// Tells the progress callback how far a frame is whose tables may still be made, which takes seconds once: as long as they have taken is
-// expected to be left, if not more.
-void Run::report_preparation() { state_.meter.report(std::max(state_.expected, state_.meter.since_start())); }
+// Tells the progress callback how far a frame is whose tables may still be made, which takes seconds once: as long as
+// they have taken is expected to be left, if not more.
+void Run::report_preparation() {
+    state_.meter.report(std::max(state_.expected, state_.meter.since_start()));
+}
 
 // Tells the progress callback how far the frame is when the round that is shaded has so many samples.
 void Run::report_shading(double samples) {

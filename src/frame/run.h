@@ -1,4 +1,5 @@
-// One render call: runs the passes of a frame's plan, in rounds where an error or a time is asked for (docs/how-a-frame-is-made.md).
+// One render call: runs the passes of a frame's plan, in rounds where an error or a time is asked for
+// (docs/how-a-frame-is-made.md).
 #pragma once
 
 #include <string_view>
@@ -6,8 +7,8 @@
 #include "frame/control_subset.h"
 #include "frame/resampling.h"
 #include "frame/run_state.h"
-#include "passes/shading_list.h"
 #include "passes/shade.h"
+#include "passes/shading_list.h"
 
 namespace lightband {
 
@@ -16,8 +17,8 @@ PlanInput plan_input(const Scene& scene, const Scene::Slots& slots, uint32_t wid
 
 class Run {
 public:
-    Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height, const Throughput& throughput,
-        const Progress& progress);
+    Run(gl::Device& device, const Scene& scene, const Settings& settings, uint32_t width, uint32_t height,
+        const Throughput& throughput, const Progress& progress);
 
     // Throws where the progress callback cancels.
     void execute();
@@ -64,18 +65,18 @@ private:
 
     // Of the round that runs.
     const ErrorControl* control_ = nullptr;
-    std::vector<float> scales_;   // of the levels as they are
-    Tiles tiles_;                 // empty where nothing is interpolated
+    std::vector<float> scales_;  // of the levels as they are
+    Tiles tiles_;                // empty where nothing is interpolated
     passes::Counts counts_;
     passes::ShadingList list_;
     passes::Seeds seeds_{};
-    RoundPixels pixels_;          // as the last round left them
-    Resampling resampling_;               // what a further round knows of it
-    double growth_ = 1;            // samples of shaded pixels, all together, over that when they were first sampled
-    RoundSamples planned_;          // of the last round
-    uint64_t samples_ = 0;        // of the picture as it is
-    RoundCost cost_;              // of the last round
-    double further_ = 0;          // times as long as a round's shading is expected to be done after it
+    RoundPixels pixels_;     // as the last round left them
+    Resampling resampling_;  // what a further round knows of it
+    double growth_ = 1;      // samples of shaded pixels, all together, over that when they were first sampled
+    RoundSamples planned_;   // of the last round
+    uint64_t samples_ = 0;   // of the picture as it is
+    RoundCost cost_;         // of the last round
+    double further_ = 0;     // times as long as a round's shading is expected to be done after it
 };
 
 }  // namespace lightband

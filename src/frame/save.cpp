@@ -74,10 +74,12 @@ void save_exr(const Frame& frame, const std::string& path, const std::string& fi
     std::vector<io::NamedChannel> channels;
     for (const std::string_view piece : split(fields, ',')) {
         const std::string name(piece);
-        if (name.empty()) throw Error(LB_ERROR_INVALID_ARGUMENT, text("names \"", fields, "\" holds an empty field name"));
+        if (name.empty())
+            throw Error(LB_ERROR_INVALID_ARGUMENT, text("names \"", fields, "\" holds an empty field name"));
         const HostArray array = frame.field(name);
         if (array.shape[0] != frame.height())
-            throw Error(LB_ERROR_INVALID_ARGUMENT, text("field ", name, " is not of the picture's size and cannot be saved"));
+            throw Error(LB_ERROR_INVALID_ARGUMENT,
+                        text("field ", name, " is not of the picture's size and cannot be saved"));
         append_channels(name, array, &channels);
     }
     io::write_exr(path, frame.width(), frame.height(), channels, attributes_of(frame));

@@ -21,7 +21,8 @@ void APIENTRY on_debug_message(GLenum, GLenum type, GLuint, GLenum, GLsizei, con
 
 std::string info_log(const Functions& gl, GLuint object, bool program) {
     GLint length = 0;
-    (program ? gl.GetProgramiv(object, GL_INFO_LOG_LENGTH, &length) : gl.GetShaderiv(object, GL_INFO_LOG_LENGTH, &length));
+    (program ? gl.GetProgramiv(object, GL_INFO_LOG_LENGTH, &length)
+             : gl.GetShaderiv(object, GL_INFO_LOG_LENGTH, &length));
     std::vector<GLchar> characters(size_t(length) + 1);
     if (program)
         gl.GetProgramInfoLog(object, length, nullptr, characters.data());
@@ -56,7 +57,8 @@ std::unique_ptr<Program> link(const Functions& gl, const std::string& name, cons
     gl.LinkProgram(program->name());
     GLint linked = GL_FALSE;
     gl.GetProgramiv(program->name(), GL_LINK_STATUS, &linked);
-    if (!linked) throw Error(LB_ERROR_DEVICE, text("program ", name, " does not link: ", info_log(gl, program->name(), true)));
+    if (!linked)
+        throw Error(LB_ERROR_DEVICE, text("program ", name, " does not link: ", info_log(gl, program->name(), true)));
     return program;
 }
 
@@ -76,9 +78,10 @@ Device::Device(uint32_t device, lb_log_callback callback, void* user) : log_(cal
     });
 }
 
-// Compilers have static objects that they make when they first compile and destroy by exit handlers: made before the library's own handler
-// is registered, they are destroyed after it has brought contexts to rest. A triangle is drawn rather than a program dispatched: llvmpipe
-// may find programs in its cache on disk, but compiles in every process how triangles are set up.
+// Compilers have static objects that they make when they first compile and destroy by exit handlers: made before the
+// library's own handler is registered, they are destroyed after it has brought contexts to rest. A triangle is drawn
+// rather than a program dispatched: llvmpipe may find programs in its cache on disk, but compiles in every process how
+// triangles are set up.
 void Device::warm_up() {
     const Texture image = Texture::image(gl(), GL_RGBA16F, 1, 1);
     const Framebuffer framebuffer(gl());
@@ -127,7 +130,8 @@ const Program& Device::compute(const std::string& name, const std::string& defin
     const auto known = contents_.programs.find(key);
     if (known != contents_.programs.end()) return *known->second;
     ContextThread::rest_at_exit();  // after what the compiler has registered for the programs before
-    return *contents_.programs.emplace(key, link(gl(), name, definitions, {{GL_COMPUTE_SHADER, name + ".glsl"}})).first->second;
+    return *contents_.programs.emplace(key, link(gl(), name, definitions, {{GL_COMPUTE_SHADER, name + ".glsl"}}))
+                .first->second;
 }
 
 const Program& Device::graphics(const std::string& name) {
@@ -146,7 +150,8 @@ void Device::check(const char* where) const {
     throw Error(LB_ERROR_DEVICE, text(where, ": OpenGL error ", error));
 }
 
-// Errors are recorded until they are asked for: those of a call that fails are taken now, or the next call would fail for them.
+// Errors are recorded until they are asked for: those of a call that fails are taken now, or the next call would fail
+// for them.
 void Device::rethrow_without_errors() const {
     // A process that ends goes on to the driver's exit handlers: what earlier passes have left to it must be done.
     if (process_ends() && contents_.context != nullptr) gl().Finish();

@@ -5,8 +5,9 @@
 
 namespace lightband::gl {
 
-// Text of shaders/<file> with its includes in place and "#define <line>" for each line of definitions, ready to compile. A line of names of
-// shaders, "LIST a.glsl b.glsl", stands for what "#include LIST" includes; without one, that is nothing.
+// Text of shaders/<file> with its includes in place and "#define <line>" for each line of definitions, ready to
+// compile. A line of names of shaders, "LIST a.glsl b.glsl", stands for what "#include LIST" includes; without one,
+// that is nothing.
 std::string shader_source(const std::string& file, const std::string& definitions);
 
 // One embedded file; the build writes the table (cmake/EmbedShaders.cmake).

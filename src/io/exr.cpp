@@ -24,7 +24,8 @@ RgbImage read_layer(const std::vector<uint8_t>& bytes, const std::string& name, 
     check_sizes(header, bytes.size(), name);
     const std::optional<glm::dmat3> conversion = colour_conversion(header, name);
 
-    // A cube map is where its data are. Any other picture is what the display window shows; what of it has no data is black.
+    // A cube map is where its data are. Any other picture is what the display window shows; what of it has no data is
+    // black.
     const bool is_cube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;
     const Imath::Box2i data = header.dataWindow(), window = is_cube ? data : header.displayWindow();
     RgbImage image = read_window(file, channels, bytes, name, window);
@@ -32,8 +33,9 @@ RgbImage read_layer(const std::vector<uint8_t>& bytes, const std::string& name, 
         const auto words = [](const Imath::Box2i& w) {
             return text("(", w.min.x, ", ", w.min.y, ") to (", w.max.x, ", ", w.max.y, ")");
         };
-        image.notes.push_back(text("its data window, ", words(data), ", is not its display window, ", words(window),
-                                   ": what it has no data of is black, and what lies outside the display window is left out"));
+        image.notes.push_back(
+            text("its data window, ", words(data), ", is not its display window, ", words(window),
+                 ": what it has no data of is black, and what lies outside the display window is left out"));
     }
     if (is_cube) image = from_cube_map(image, name);
     if (conversion) convert_colours(*conversion, &image);
@@ -44,8 +46,8 @@ bool ends_in(std::string_view words, std::string_view end) {
     return words.size() >= end.size() && words.substr(words.size() - end.size()) == end;
 }
 
-// OpenEXR reports that memory ran out by exceptions of its own. They end in the words of the std::bad_alloc that it caught,
-// or in those of its ScanLineInputFile.
+// OpenEXR reports that memory ran out by exceptions of its own. They end in the words of the std::bad_alloc that it
+// caught, or in those of its ScanLineInputFile.
 bool tells_of_memory(const std::exception& reason) {
     return ends_in(reason.what(), std::bad_alloc().what()) ||
            ends_in(reason.what(), "Failed to allocate memory for scanline buffers");

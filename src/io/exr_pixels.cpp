@@ -21,8 +21,12 @@ namespace {
 // Called with the RGB of one chunk, rows top-down.
 using Chunk = std::function<void(const Imath::Box2i& place, float* rgb)>;
 
-size_t width_of(const Imath::Box2i& box) { return size_t(box.max.x - box.min.x + 1); }
-size_t height_of(const Imath::Box2i& box) { return size_t(box.max.y - box.min.y + 1); }
+size_t width_of(const Imath::Box2i& box) {
+    return size_t(box.max.x - box.min.x + 1);
+}
+size_t height_of(const Imath::Box2i& box) {
+    return size_t(box.max.y - box.min.y + 1);
+}
 
 // OpenEXR converts half and uint to float on the way.
 Imf::FrameBuffer frame_buffer(const ColourChannels& channels, const Imath::Box2i& place, float* rgb) {
@@ -47,25 +51,26 @@ void spread_grey(const ColourChannels& channels, std::vector<float>* rgb) {
     for (size_t i = 0; i < rgb->size(); i += 3) (*rgb)[i + 1] = (*rgb)[i + 2] = (*rgb)[i];
 }
 
-// Runs a call of OpenEXR that decodes pixels. If it fails and memory is short, throws std::bad_alloc instead: where zlib
-// fails, OpenEXR does not say whether for lack of memory. An allocation is tried here, before the callers free what they
-// hold.
+// Runs a call of OpenEXR that decodes pixels. If it fails and memory is short, throws std::bad_alloc instead: where
+// zlib fails, OpenEXR does not say whether for lack of memory. An allocation is tried here, before the callers free
+// what they hold.
 template <class Call>
 void decode(const Call& call) {
     try {
         call();
     } catch (const std::exception&) {
-        constexpr size_t more_than_zlib_needs = 1 << 16;  // zconf.h: about 44 kB to decompress
+        constexpr size_t more_than_zlib_needs = 1 << 16;          // zconf.h: about 44 kB to decompress
         ::operator delete(::operator new(more_than_zlib_needs));  // direct calls, which compilers do not leave out
         throw;
     }
 }
 
-// One chunk to a call of OpenEXR, in all that follows: where memory runs out within a chunk, OpenEXR 3.1 notes it, goes on
-// to the next one with the same decoder, and that of DWAA and DWAB then writes into buffers that it did not get (before
-// 3.3, whose decoders are others).
+// One chunk to a call of OpenEXR, in all that follows: where memory runs out within a chunk, OpenEXR 3.1 notes it, goes
+// on to the next one with the same decoder, and that of DWAA and DWAB then writes into buffers that it did not get
+// (before 3.3, whose decoders are others).
 
-void read_scanlines(Imf::InputPart input, const ColourChannels& channels, const Imath::Box2i& window, const Chunk& use) {
+void read_scanlines(Imf::InputPart input, const ColourChannels& channels, const Imath::Box2i& window,
+                    const Chunk& use) {
     const Imath::Box2i data = input.header().dataWindow();
     constexpr int shortest_strip = 16;  // of compressions whose chunks are single lines and hold no buffers
     const int lines = std::max(shortest_strip, lines_per_chunk(input.header().compression()));
@@ -82,7 +87,8 @@ void read_scanlines(Imf::InputPart input, const ColourChannels& channels, const 
 }
 
 // Of files with several levels of detail, the finest.
-void read_tiles(Imf::TiledInputPart input, const ColourChannels& channels, const Imath::Box2i& window, const Chunk& use) {
+void read_tiles(Imf::TiledInputPart input, const ColourChannels& channels, const Imath::Box2i& window,
+                const Chunk& use) {
     constexpr int finest = 0;
     std::vector<float> rgb;
     for (int y = 0; y < input.numYTiles(finest); ++y)
@@ -153,9 +159,8 @@ RgbImage read_window(Imf::MultiPartInputFile& file, const ColourChannels& channe
     image.rgb.resize(size_t(image.width) * image.height * 3);
 
     if (channels.colour == Colour::luminance_chroma) {
-        read_luminance_chroma(bytes, name, channels, window, [&](const Imath::Box2i& place, float* rgb) {
-            copy_into(window, place, rgb, &image);
-        });
+        read_luminance_chroma(bytes, name, channels, window,
+                              [&](const Imath::Box2i& place, float* rgb) { copy_into(window, place, rgb, &image); });
         if (const size_t count = clear_impossible_chroma(&image))
             image.notes.push_back(text("of ", count, " texels, chroma at half resolution gave negative components; ",
                                        "these were set to 0"));
@@ -172,7 +177,8 @@ RgbImage read_window(Imf::MultiPartInputFile& file, const ColourChannels& channe
     else
         read_scanlines(Imf::InputPart(file, channels.part), channels, window, use);
     if (ringing.count() > 0)
-        image.notes.push_back(text(ringing.count(), " negative values, the ringing of its lossy compression (the least is ",
+        image.notes.push_back(text(ringing.count(),
+                                   " negative values, the ringing of its lossy compression (the least is ",
                                    ringing.least(), "), were set to 0"));
     return image;
 }

@@ -46,7 +46,8 @@ public:
         const auto end = std::find(start, bytes_.end(), '\n');
         if (end == bytes_.end()) fail("Radiance header is truncated: a line has no end");
         position_ = size_t(end - bytes_.begin()) + 1;
-        std::string_view line(reinterpret_cast<const char*>(bytes_.data()) + (start - bytes_.begin()), size_t(end - start));
+        std::string_view line(reinterpret_cast<const char*>(bytes_.data()) + (start - bytes_.begin()),
+                              size_t(end - start));
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
         return line;
     }
@@ -122,7 +123,8 @@ void parse_line(std::string_view line, const Reader& reader, Header* header) {
                              "' is not supported, only '32-bit_rle_rgbe' and '32-bit_rle_xyze'"));
     } else if (starts_with(line, "EXPOSURE=")) {  // may occur several times: the factors multiply
         const double factor = parse_factor(take_word(value), line, reader);
-        if (factor == 0) header->notes.push_back("its header line EXPOSURE=0, which FreeImage writes, was taken for none");
+        if (factor == 0)
+            header->notes.push_back("its header line EXPOSURE=0, which FreeImage writes, was taken for none");
         for (double& channel : header->exposure) channel *= factor == 0 ? 1 : factor;
     } else if (starts_with(line, "COLORCORR=")) {  // the same, with one factor per channel
         for (double& channel : header->exposure) channel *= parse_factor(take_word(value), line, reader);
@@ -131,7 +133,8 @@ void parse_line(std::string_view line, const Reader& reader, Header* header) {
         // Adobe Photoshop, with which Poly Haven's maps are made, writes eight zeros.
         const Vec2 none(0);
         if (primaries.red == none && primaries.green == none && primaries.blue == none && primaries.white == none)
-            header->notes.push_back("its header line PRIMARIES of zeros, which Adobe Photoshop writes, was taken for none");
+            header->notes.push_back(
+                "its header line PRIMARIES of zeros, which Adobe Photoshop writes, was taken for none");
         else
             header->primaries = primaries;
     }
@@ -148,8 +151,9 @@ Header parse_header(Reader& reader) {
     return header;
 }
 
-// XYZE is CIE XYZ, whose Y is in candelas per square metre (color.h: WHTEFFICACY lumens per watt of white light). Its white is equal energy,
-// whatever PRIMARIES says, as in Radiance's ra_xyze. Without PRIMARIES, RGBE is Rec. 709, as everyone but Radiance writes it.
+// XYZE is CIE XYZ, whose Y is in candelas per square metre (color.h: WHTEFFICACY lumens per watt of white light). Its
+// white is equal energy, whatever PRIMARIES says, as in Radiance's ra_xyze. Without PRIMARIES, RGBE is Rec. 709, as
+// everyone but Radiance writes it.
 void convert(const Header& header, const std::string& name, RgbImage* image) {
     constexpr double lumens_per_watt = 179;
     const Chromaticities from = header.is_xyz ? cie_xyz : header.primaries.value_or(rec709);

@@ -11,11 +11,12 @@
 namespace lightband {
 namespace {
 
-// Of the map's mean. Half floats keep all their digits down to 2^-14, of which weights of solid angle take a fifth; footprints and pilots
-// that reach below the horizon were seen to mislead from 2^-11 on.
+// Of the map's mean. Half floats keep all their digits down to 2^-14, of which weights of solid angle take a fifth;
+// footprints and pilots that reach below the horizon were seen to mislead from 2^-11 on.
 constexpr double least_seen = 0x1p-9;
 
-// Of a texel under linear lookup, the half width (that of a whole texel) over the radius of the disc that is as wide, sqrt(2 / 6 * 2).
+// Of a texel under linear lookup, the half width (that of a whole texel) over the radius of the disc that is as wide,
+// sqrt(2 / 6 * 2).
 constexpr double corner_reach = 1.2247449;
 
 // The one environment of a frame.
@@ -29,25 +30,33 @@ public:
         if (!shades) return;
         const Lookup lookup = settings.environment_lookup();
         const Sampler sampler = settings.sampler();
-        if (sampler == Sampler::filtered || sampler == Sampler::cut) light_->footprints(lookup, footprint_kind(sampler));
+        if (sampler == Sampler::filtered || sampler == Sampler::cut)
+            light_->footprints(lookup, footprint_kind(sampler));
         if (sampler == Sampler::cut) light_->above(lookup);
         if (sampler == Sampler::combined) light_->points(lookup, points_seed);
     }
 
     std::string definitions(LightPass pass, const Settings& settings) const override {
         std::string result = settings.environment_lookup() == Lookup::nearest ? "ENVIRONMENT_NEAREST" : "";
-        if (pass == LightPass::classify) return text("BRIGHT_SOURCES ", light_->sources(settings.environment_lookup()).size());
+        if (pass == LightPass::classify)
+            return text("BRIGHT_SOURCES ", light_->sources(settings.environment_lookup()).size());
         if (pass != LightPass::predict && pass != LightPass::shade) return result;
         if (light_->hides_light()) result += "\nHIDES_LIGHT";
         switch (settings.sampler()) {
-            case Sampler::cut: result += "\nSAMPLER_CUT"; break;
-            case Sampler::combined: result += text("\nSAMPLER_COMBINED\nMAP_WORTH ", map_sample_worth); break;
-            default: break;
+            case Sampler::cut:
+                result += "\nSAMPLER_CUT";
+                break;
+            case Sampler::combined:
+                result += text("\nSAMPLER_COMBINED\nMAP_WORTH ", map_sample_worth);
+                break;
+            default:
+                break;
         }
         return pass == LightPass::shade ? result + tables(settings.sampler()) : result;
     }
 
-    void bind(LightPass pass, const Settings& settings, uint32_t points_seed, const gl::Program& program) const override {
+    void bind(LightPass pass, const Settings& settings, uint32_t points_seed,
+              const gl::Program& program) const override {
         const gl::Functions& gl = light_->device()->gl();
         if (pass == LightPass::classify) return bind_sources(settings, program);
         program.set("environment_scale", float(scale_));
@@ -75,12 +84,15 @@ private:
     static std::string tables(Sampler sampler) {
         switch (sampler) {
             case Sampler::cut:
-                return text("\nFILTERED\nTRUNK_PARTS ", LightTree::trunks[0].count, "\nCOARSE_TRUNK_PARTS ", LightTree::trunks[1].count,
-                            "\nTREE_DEPTH ", LightTree::depth, "u\nCEILING_WORTH ", Ceilings::worth, "\n",
-                            FootprintLight::definitions(footprint_kind(sampler)));
-            case Sampler::combined: return text("\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::cluster_count);
-            case Sampler::filtered: return "\nFILTERED\n" + FootprintLight::definitions(footprint_kind(sampler));
-            case Sampler::brdf: break;
+                return text("\nFILTERED\nTRUNK_PARTS ", LightTree::trunks[0].count, "\nCOARSE_TRUNK_PARTS ",
+                            LightTree::trunks[1].count, "\nTREE_DEPTH ", LightTree::depth, "u\nCEILING_WORTH ",
+                            Ceilings::worth, "\n", FootprintLight::definitions(footprint_kind(sampler)));
+            case Sampler::combined:
+                return text("\nMAP_POINTS ", MapPoints::count, "u\nMAP_CLUSTERS ", MapPoints::cluster_count);
+            case Sampler::filtered:
+                return "\nFILTERED\n" + FootprintLight::definitions(footprint_kind(sampler));
+            case Sampler::brdf:
+                break;
         }
         return "";
     }
@@ -92,7 +104,8 @@ private:
             // A texel's corners lie further from its middle than the edge of a disc of the same width.
             const Vec3& d = sources[i].direction;
             const double reach = std::min(corner_reach * sources[i].angular_radius, pi / 2);
-            program.set(text("bright_sources[", i, "]").c_str(), {float(d.x), float(d.y), float(d.z), float(std::sin(reach))});
+            program.set(text("bright_sources[", i, "]").c_str(),
+                        {float(d.x), float(d.y), float(d.z), float(std::sin(reach))});
         }
     }
 
@@ -146,7 +159,8 @@ EnvironmentLight::EnvironmentLight(gl::DevicePtr device, RgbImage map)
       hides_light_(sampler_.dimmest_view() < least_seen) {
     const uint32_t limit = uint32_t(device_->max_texture_size());
     if (map_.width > limit || map_.height > limit)
-        throw Error(LB_ERROR_LIMIT, text("a map of ", map_.width, " x ", map_.height, " exceeds the device's textures of ", limit));
+        throw Error(LB_ERROR_LIMIT,
+                    text("a map of ", map_.width, " x ", map_.height, " exceeds the device's textures of ", limit));
     texture_ = gl::Texture::image(device_->gl(), GL_RGBA32F, map_.width, map_.height);
     // Some rows at a time: a second copy of a large map would take 2 GiB.
     constexpr uint32_t rows_at_once = 64;
@@ -175,7 +189,8 @@ std::vector<std::shared_ptr<const Light>> EnvironmentLight::split(const Settings
         BrightSources sources = split_bright_sources(map_, unit_, lookup);
         std::vector<std::shared_ptr<const Light>> lights;
         if (!sources.suns.empty()) {
-            device_->log(text("split_suns: ", sources.suns.size(), " small bright sources of an environment became suns"));
+            device_->log(
+                text("split_suns: ", sources.suns.size(), " small bright sources of an environment became suns"));
             lights.push_back(std::make_shared<const EnvironmentLight>(device_, std::move(sources.rest)));
         }
         for (const Sun& sun : sources.suns) lights.push_back(std::make_shared<const SunLight>(device_, sun));
@@ -193,7 +208,8 @@ const std::vector<Sun>& EnvironmentLight::sources(Lookup lookup) const {
 const EnvironmentBandwidth& EnvironmentLight::bandwidth(BandRule rule) const {
     auto found = bandwidths_.find(rule);
     if (found == bandwidths_.end())
-        found = bandwidths_.emplace(rule, lightband::environment_bandwidth(*device_, texture_, map_.height, rule)).first;
+        found =
+            bandwidths_.emplace(rule, lightband::environment_bandwidth(*device_, texture_, map_.height, rule)).first;
     return found->second;
 }
 
@@ -219,8 +235,7 @@ std::string FootprintLight::definitions(Kind kind) {
 const FootprintLight& EnvironmentLight::footprints(Lookup lookup, FootprintLight::Kind kind) const {
     const auto key = std::pair(lookup, kind);
     auto found = footprints_.find(key);
-    if (found == footprints_.end())
-        found = footprints_.emplace(key, footprint_light(*this, lookup, kind)).first;
+    if (found == footprints_.end()) found = footprints_.emplace(key, footprint_light(*this, lookup, kind)).first;
     return found->second;
 }
 

@@ -1,4 +1,5 @@
-// Light from a map: the map on a device, its bandwidth on the octahedral square and the samplers' tables, each made when first asked for.
+// Light from a map: the map on a device, its bandwidth on the octahedral square and the samplers' tables, each made
+// when first asked for.
 #pragma once
 
 #include <map>
@@ -31,7 +32,8 @@ struct MapPoints {
 // (sampling/light_tree.h). Filled by lights/footprint_light.
 struct FootprintLight {
     enum class Kind { whole, below_ceilings };
-    gl::Texture texture;  // array of a layer for each ceiling, mip-mapped; RGB over the map's mean, and alpha, weighted by solid angle
+    gl::Texture texture;  // array of a layer for each ceiling, mip-mapped; RGB over the map's mean, and alpha, weighted
+                          // by solid angle
     static std::string definitions(Kind kind);
 };
 
@@ -54,7 +56,8 @@ public:
     Sample sample(const Vec2& u) const override;
     double pdf(const Vec3& direction) const override { return sampler_.pdf(direction); }
     double power() const override;
-    // Where split_suns is on: the rest of the map, and suns; made once. Empty where the map has no small bright sources.
+    // Where split_suns is on: the rest of the map, and suns; made once. Empty where the map has no small bright
+    // sources.
     std::vector<std::shared_ptr<const Light>> split(const Settings& settings) const override;
     size_t device_bytes() const override;
 
@@ -63,8 +66,8 @@ public:
     const MapSampler& sampler() const { return sampler_; }
     // The radiance of a value of 1 in the texture and the tables: MapSampler::unit().
     double unit() const { return unit_; }
-    // Whether a surface may face light so dim beside what it does not see that lookups need care: halves would not hold it, and
-    // footprints that reach below the horizon would drown it.
+    // Whether a surface may face light so dim beside what it does not see that lookups need care: halves would not hold
+    // it, and footprints that reach below the horizon would drown it.
     bool hides_light() const { return hides_light_; }
     // Over the sphere, in units; 1 or more, and less than 2, also where the map is black.
     double mean() const { return sampler_.total() / (4 * pi) / unit_; }

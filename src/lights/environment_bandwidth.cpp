@@ -12,11 +12,14 @@ namespace {
 // The square's side: its mean texel is about as wide as the map's; bounded so that a frame's lookups stay in caches.
 constexpr uint32_t smallest_side = 64, largest_side = 1024;
 
-void dispatch_square(const gl::Functions& gl, uint32_t side) { dispatch_pixels(gl, side, side); }
+void dispatch_square(const gl::Functions& gl, uint32_t side) {
+    dispatch_pixels(gl, side, side);
+}
 
 }  // namespace
 
-EnvironmentBandwidth environment_bandwidth(gl::Device& device, const gl::Texture& map, uint32_t map_height, BandRule rule) {
+EnvironmentBandwidth environment_bandwidth(gl::Device& device, const gl::Texture& map, uint32_t map_height,
+                                           BandRule rule) {
     const gl::Functions& gl = device.gl();
     EnvironmentBandwidth result;
     const uint32_t side = result.side = octahedral_side(map_height, smallest_side, largest_side);

@@ -25,7 +25,8 @@ FootprintLight footprint_light(const EnvironmentLight& light, Lookup lookup, Foo
     const uint32_t layers = below ? Ceilings::count : 1;
     result.texture = gl::Texture::image_array(gl, format, side, side, layers, levels);
 
-    const std::string definitions = FootprintLight::definitions(kind) + (halves ? "\nLIGHT_FORMAT rgba16f" : "\nLIGHT_FORMAT rgba32f");
+    const std::string definitions =
+        FootprintLight::definitions(kind) + (halves ? "\nLIGHT_FORMAT rgba16f" : "\nLIGHT_FORMAT rgba32f");
     const gl::Program& resample =
         device.compute("footprint_light", definitions + (lookup == Lookup::nearest ? "\nENVIRONMENT_NEAREST" : ""));
     resample.set("side", int32_t(side));

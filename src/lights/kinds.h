@@ -12,8 +12,9 @@ public:
     // How many lights were split off others.
     size_t split() const { return split_; }
     bool empty() const { return groups_.empty(); }
-    // The radiance of a value of 1 in whatever shaders read and write: the power of two at or below the mean radiance over the sphere, so
-    // that products of radiances near it stay far within the range of float, and no digit changes. 1 where there is no light.
+    // The radiance of a value of 1 in whatever shaders read and write: the power of two at or below the mean radiance
+    // over the sphere, so that products of radiances near it stay far within the range of float, and no digit changes.
+    // 1 where there is no light.
     double unit() const { return unit_; }
 
     // After each kind, `made` is called.

@@ -1,11 +1,11 @@
-// What a frame asks of its lights, whatever kind they are of. A kind is one file here (environment, sun) beside one shader file of its
-// name, and one line in lights/kinds.cpp.
+// What a frame asks of its lights, whatever kind they are of. A kind is one file here (environment, sun) beside one
+// shader file of its name, and one line in lights/kinds.cpp.
 //
 // The shader of kind K defines, for the pass that it is compiled for (LightPass):
 //     seen        vec3 K_seen(vec3 direction)             radiance from a direction of the world, for the background
 //     predict     void K_predict(Point, inout Predicted)  its part of eq. 5, 6 and 9 (shaders/bandwidth.glsl)
-//     classify    bool K_sets_between(vec3, vec3)         whether the light is cut off by the horizon of either normal or lies between them
-//     shade       vec3 K_of_sample(...), K_prepare, K_samples (shaders/shade.glsl)
+//     classify    bool K_sets_between(vec3, vec3)         whether the light is cut off by the horizon of either normal
+//     or lies between them shade       vec3 K_of_sample(...), K_prepare, K_samples (shaders/shade.glsl)
 #pragma once
 
 #include <functional>
@@ -53,13 +53,15 @@ class LightGroup {
 public:
     virtual ~LightGroup() = default;
 
-    // Makes what the passes will read of the light, so that no pass pays for it that happens to come first. points_seed: of directions that
-    // are drawn beforehand (Sampler::combined). shades: whether any pixel will be shaded.
+    // Makes what the passes will read of the light, so that no pass pays for it that happens to come first.
+    // points_seed: of directions that are drawn beforehand (Sampler::combined). shades: whether any pixel will be
+    // shaded.
     virtual void prepare(const Settings& settings, uint32_t points_seed, bool shades) const = 0;
     // "NAME value" lines for the program of a pass.
     virtual std::string definitions(LightPass pass, const Settings& settings) const = 0;
     // Textures, uniform blocks and uniforms of that program.
-    virtual void bind(LightPass pass, const Settings& settings, uint32_t points_seed, const gl::Program& program) const = 0;
+    virtual void bind(LightPass pass, const Settings& settings, uint32_t points_seed,
+                      const gl::Program& program) const = 0;
     // Whether prediction evaluates the lobe itself, rather than from the pilots' table alone; and whether shading wants
     // Material::bind_importance.
     virtual bool predicts_by_lobe() const = 0;

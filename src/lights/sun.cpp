@@ -9,7 +9,8 @@
 namespace lightband {
 namespace {
 
-// Of a pixel's samples, one in so many are drawn besides from each sun: a lobe varies little over a disc of half a degree.
+// Of a pixel's samples, one in so many are drawn besides from each sun: a lobe varies little over a disc of half a
+// degree.
 constexpr uint32_t samples_to_one_of_a_sun = 4;
 
 class SunGroup : public LightGroup {
@@ -20,8 +21,8 @@ public:
         for (const auto& light : lights) {
             const Sun& sun = std::static_pointer_cast<const SunLight>(light)->sun();
             const Vec3 radiance = sun.radiance() / unit;
-            for (const double value : {sun.direction.x, sun.direction.y, sun.direction.z, std::sin(sun.angular_radius), radiance.x, radiance.y,
-                                       radiance.z, sun.versine()})
+            for (const double value : {sun.direction.x, sun.direction.y, sun.direction.z, std::sin(sun.angular_radius),
+                                       radiance.x, radiance.y, radiance.z, sun.versine()})
                 values.push_back(float(value));
         }
         buffer_ = gl::Buffer(device_->gl(), values.size() * sizeof(float), values.data());
@@ -30,12 +31,15 @@ public:
 
     void prepare(const Settings&, uint32_t, bool) const override {}
 
-    std::string definitions(LightPass, const Settings&) const override { return text("SAMPLES_TO_ONE_OF_A_SUN ", samples_to_one_of_a_sun, "u"); }
+    std::string definitions(LightPass, const Settings&) const override {
+        return text("SAMPLES_TO_ONE_OF_A_SUN ", samples_to_one_of_a_sun, "u");
+    }
 
     void bind(LightPass pass, const Settings& settings, uint32_t, const gl::Program& program) const override {
         program.set("sun_count", count_);
         // A disc's bandwidth goes with one over its radius.
-        if (pass == LightPass::predict) program.set("unit_disc_bandwidth", float(disc_bandwidth(1, settings.band_rule())));
+        if (pass == LightPass::predict)
+            program.set("unit_disc_bandwidth", float(disc_bandwidth(1, settings.band_rule())));
         bind_texture(device_->gl(), 11, texture_);
     }
 
@@ -66,20 +70,23 @@ Sun SunLight::from(const lb_sun_desc& desc) {
     const float* v = desc.direction;
     const double length = glm::length(Vec3(v[0], v[1], v[2]));
     if (!(length > 0) || !std::isfinite(length))
-        throw Error(LB_ERROR_INVALID_ARGUMENT, text("desc: direction is (", v[0], ", ", v[1], ", ", v[2], "); it must be a direction"));
+        throw Error(LB_ERROR_INVALID_ARGUMENT,
+                    text("desc: direction is (", v[0], ", ", v[1], ", ", v[2], "); it must be a direction"));
     sun.direction = Vec3(v[0], v[1], v[2]) / length;
     if (desc.angular_radius != 0) {
         sun.angular_radius = double(desc.angular_radius);
         // The limit as a float is a little more than pi / 2.
         if (!(desc.angular_radius >= float(Sun::least_radius) && desc.angular_radius <= float(Sun::largest_radius)))
-            throw Error(LB_ERROR_INVALID_ARGUMENT, text("desc: angular_radius is ", desc.angular_radius, "; it must be ", Sun::least_radius,
-                                                        " .. pi / 2 radians, or 0 for that of the sun, ", Sun::standard_radius));
+            throw Error(LB_ERROR_INVALID_ARGUMENT,
+                        text("desc: angular_radius is ", desc.angular_radius, "; it must be ", Sun::least_radius,
+                             " .. pi / 2 radians, or 0 for that of the sun, ", Sun::standard_radius));
     }
     const double most = double(largest_radiance) * sun.projected_solid_angle();
     for (int c = 0; c < 3; ++c) {
         if (!(desc.irradiance[c] >= 0 && double(desc.irradiance[c]) <= most))
-            throw Error(LB_ERROR_INVALID_ARGUMENT, text("desc: irradiance[", c, "] is ", desc.irradiance[c], "; it must be 0 .. ", most,
-                                                        " for a disc of ", sun.angular_radius, " radians, of radiance ", largest_radiance));
+            throw Error(LB_ERROR_INVALID_ARGUMENT,
+                        text("desc: irradiance[", c, "] is ", desc.irradiance[c], "; it must be 0 .. ", most,
+                             " for a disc of ", sun.angular_radius, " radians, of radiance ", largest_radiance));
         sun.irradiance[c] = double(desc.irradiance[c]);
     }
     return sun;

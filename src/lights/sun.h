@@ -15,7 +15,9 @@ public:
     static const LightKind registered;
     const LightKind& kind() const override { return registered; }
     const gl::DevicePtr& device() const override { return device_; }
-    Vec3 evaluate(const Vec3& direction, Lookup) const override { return sun_.contains(direction) ? sun_.radiance() : Vec3(0); }
+    Vec3 evaluate(const Vec3& direction, Lookup) const override {
+        return sun_.contains(direction) ? sun_.radiance() : Vec3(0);
+    }
     Sample sample(const Vec2& u) const override { return {sun_.sample(u), 1 / sun_.solid_angle()}; }
     double pdf(const Vec3& direction) const override { return sun_.contains(direction) ? 1 / sun_.solid_angle() : 0; }
     double power() const override;

@@ -36,20 +36,23 @@ Histogram Counts::new_bins() const {
     return sums;
 }
 
-Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Criteria& criteria, const Forecast& forecast,
-                uint32_t width, const Covered& covered, const GBuffer& gbuffer, const Prediction* prediction, const Shading& target) {
+Counts classify(gl::Device& device, const SlotTable& slot_of, size_t slots, const Criteria& criteria,
+                const Forecast& forecast, uint32_t width, const Covered& covered, const GBuffer& gbuffer,
+                const Prediction* prediction, const Shading& target) {
     const Settings& settings = criteria.settings;
     const std::vector<uint8_t>& previous_bins = criteria.previous_bins;
     const gl::Functions& gl = device.gl();
     const gl::Buffer counts(gl, (header + slots * 2 * budget_bins) * sizeof(uint32_t), nullptr);
     counts.clear();
     const bool further = !previous_bins.empty(), interpolates = prediction != nullptr && prediction->pyramids;
-    const gl::Program& program = device.compute("classify", text(definitions(settings, prediction), further ? "\nFURTHER_ROUND\n" : "\n",
-                                                                interpolates ? criteria.lights.definitions(LightPass::classify, settings) : ""));
+    const gl::Program& program = device.compute(
+        "classify", text(definitions(settings, prediction), further ? "\nFURTHER_ROUND\n" : "\n",
+                         interpolates ? criteria.lights.definitions(LightPass::classify, settings) : ""));
     gl::Texture previous;
     if (further) {
         previous = gl::Texture::image(gl, GL_R8UI, width, uint32_t(previous_bins.size() / width));
-        previous.upload(width, uint32_t(previous_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE, previous_bins.data());
+        previous.upload(width, uint32_t(previous_bins.size() / width), GL_RED_INTEGER, GL_UNSIGNED_BYTE,
+                        previous_bins.data());
     }
     criteria.chosen.set(program);
     if (interpolates) criteria.lights.bind(LightPass::classify, settings, 0, program);

@@ -13,13 +13,14 @@ constexpr uint32_t group = 64;
 
 }  // namespace
 
-Covered covered(const gl::Functions& gl, const GBuffer& gbuffer, uint32_t width, uint32_t height, uint32_t coarsest_level,
-                std::vector<uint8_t>* material) {
+Covered covered(const gl::Functions& gl, const GBuffer& gbuffer, uint32_t width, uint32_t height,
+                uint32_t coarsest_level, std::vector<uint8_t>* material) {
     *material = read_bytes(gbuffer.material, size_t(width) * height);
     std::vector<std::vector<uint32_t>> by_level(coarsest_level + 1);
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x)
-            if ((*material)[size_t(y) * width + x] != 0) by_level[lattice_level(x, y, coarsest_level)].push_back(y << 16 | x);
+            if ((*material)[size_t(y) * width + x] != 0)
+                by_level[lattice_level(x, y, coarsest_level)].push_back(y << 16 | x);
 
     Covered result;
     result.levels.resize(by_level.size());
@@ -35,7 +36,8 @@ Covered covered(const gl::Functions& gl, const GBuffer& gbuffer, uint32_t width,
     return result;
 }
 
-void dispatch_covered(const gl::Functions& gl, const gl::Program& program, const Covered& covered, const Covered::Part& part) {
+void dispatch_covered(const gl::Functions& gl, const gl::Program& program, const Covered& covered,
+                      const Covered::Part& part) {
     constexpr uint32_t most = most_groups * group;
     bind_texture(gl, 15, covered.texture);
     for (uint32_t done = 0; done < part.count; done += most) {

@@ -17,10 +17,11 @@ struct Covered {
 };
 
 // material: what each pixel sees, for the host.
-Covered covered(const gl::Functions& gl, const GBuffer& gbuffer, uint32_t width, uint32_t height, uint32_t coarsest_level,
-                std::vector<uint8_t>* material);
+Covered covered(const gl::Functions& gl, const GBuffer& gbuffer, uint32_t width, uint32_t height,
+                uint32_t coarsest_level, std::vector<uint8_t>* material);
 
 // Runs the current program, which includes covered.glsl, over a part of the list.
-void dispatch_covered(const gl::Functions& gl, const gl::Program& program, const Covered& covered, const Covered::Part& part);
+void dispatch_covered(const gl::Functions& gl, const gl::Program& program, const Covered& covered,
+                      const Covered::Part& part);
 
 }  // namespace lightband::passes

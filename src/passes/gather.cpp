@@ -4,7 +4,8 @@
 
 namespace lightband::passes {
 
-std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const Shading& shading, const Prediction* prediction) {
+std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const Shading& shading,
+                             const Prediction* prediction) {
     const gl::Functions& gl = device.gl();
     std::vector<Gathered> gathered(list.pixels);
     if (gathered.empty()) return gathered;

@@ -12,6 +12,7 @@ struct Gathered {
 };
 
 // prediction: null where nothing was predicted. One for each of the list's pixels, in its order.
-std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const Shading& shading, const Prediction* prediction);
+std::vector<Gathered> gather(gl::Device& device, const ShadingList& list, const Shading& shading,
+                             const Prediction* prediction);
 
 }  // namespace lightband::passes

@@ -51,7 +51,8 @@ SlotTable slot_table(const gl::Functions& gl, const Scene::Slots& slots) {
 }
 
 void predict(gl::Device& device, const Scene& scene, const Lights& lights, const Scene::Slots& slots,
-             const SlotTable& slot_of, const Settings& settings, uint32_t height, const Covered& covered, const GBuffer& gbuffer, const Prediction& target) {
+             const SlotTable& slot_of, const Settings& settings, uint32_t height, const Covered& covered,
+             const GBuffer& gbuffer, const Prediction& target) {
     const gl::Functions& gl = device.gl();
     const gl::Buffer pilots = all_pilots(gl, slots, settings, !lights.empty());
     const gl::Texture pilots_texture = gl::Texture::of_buffer(gl, GL_RGBA32F, pilots);
@@ -66,7 +67,8 @@ void predict(gl::Device& device, const Scene& scene, const Lights& lights, const
     const bool by_lobe = lights.predicts_by_lobe();
     for (size_t slot = 0; slot < (by_lobe ? slots.materials.size() : 1); ++slot) {
         const std::string lobe = by_lobe ? slots.materials[slot]->definitions(settings.brdf_lookup()) +
-                                               text("\nLOBE_BANDWIDTH_VIEWS ", LobeBandwidth::views, "\nLOBE_BANDWIDTH_SIDE ", LobeBandwidth::side)
+                                               text("\nLOBE_BANDWIDTH_VIEWS ", LobeBandwidth::views,
+                                                    "\nLOBE_BANDWIDTH_SIDE ", LobeBandwidth::side)
                                          : text("LOBE_VIEWS ", LobeTable::views);
         const gl::Program& program = device.compute("bandwidth", lobe + "\n" + definitions);
         program.set("pilot_count", int32_t(settings.pilots()));
@@ -102,7 +104,8 @@ Forecast forecast(gl::Device& device, const Covered& covered, const Prediction& 
 }
 
 void pyramids(gl::Device& device, const Forecast& forecast, const Scales& scales, const Settings& settings,
-              const Covered& covered, uint32_t width, uint32_t height, const Prediction& prediction, const Pyramids& target) {
+              const Covered& covered, uint32_t width, uint32_t height, const Prediction& prediction,
+              const Pyramids& target) {
     const gl::Functions& gl = device.gl();
     const std::string definitions = target.variances ? "VARIANCES" : "";
     const auto bind = [&](const gl::Program& program) {

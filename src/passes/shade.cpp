@@ -8,24 +8,26 @@
 namespace lightband::passes {
 namespace {
 
-// Samples of one dispatch: about half a second on a software renderer of two cores, so that progress moves and cancelling works; some
-// milliseconds on a graphics processor, beside which the wait between two dispatches is short.
+// Samples of one dispatch: about half a second on a software renderer of two cores, so that progress moves and
+// cancelling works; some milliseconds on a graphics processor, beside which the wait between two dispatches is short.
 constexpr uint64_t dispatch_samples = 1u << 21;
 
-// Pixels of one workgroup: no fewer than most graphics processors run at a time, few enough that some dozen control pixels make more
-// than one.
+// Pixels of one workgroup: no fewer than most graphics processors run at a time, few enough that some dozen control
+// pixels make more than one.
 constexpr uint32_t group = 32;
 
 std::string definitions(const Lights& lights, const Material& material, const Settings& settings, uint32_t each) {
     return material.definitions(settings.brdf_lookup()) +
-           text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", each, "\nLEAST_RESAMPLING_FACTOR ", least_resampling_factor,
-                settings.sequence() == Sequence::random ? "u\nSEQUENCE_RANDOM\n" : "u\n", lights.definitions(LightPass::shade, settings));
+           text("\nSHADE_GROUP ", group, "\nBINS ", budget_bins, "\nPART_SAMPLES ", each, "\nLEAST_RESAMPLING_FACTOR ",
+                least_resampling_factor, settings.sequence() == Sequence::random ? "u\nSEQUENCE_RANDOM\n" : "u\n",
+                lights.definitions(LightPass::shade, settings));
 }
 
 }  // namespace
 
-void shade(gl::Device& device, const Lights& lights, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
-           const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn) {
+void shade(gl::Device& device, const Lights& lights, const Scene::Slots& slots, const Settings& settings,
+           const Seeds& seeds, const ShadingList& list, const GBuffer& gbuffer, const Shading& target,
+           const Drawn& drawn) {
     const gl::Functions& gl = device.gl();
     const uint32_t each = part_samples_beside(lights.loops_per_sample());
     uint64_t done = 0;
@@ -62,8 +64,8 @@ void shade(gl::Device& device, const Lights& lights, const Scene::Slots& slots, 
     }
 }
 
-void background(gl::Device& device, const Lights& lights, const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer,
-                const Shading& target) {
+void background(gl::Device& device, const Lights& lights, const Settings& settings, uint32_t width, uint32_t height,
+                const GBuffer& gbuffer, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Program& program = device.compute("background", lights.definitions(LightPass::background, settings));
     set_rays(program, gbuffer.rays);

@@ -15,11 +15,12 @@ struct Seeds {
     uint32_t samples, map_points;
 };
 
-void shade(gl::Device& device, const Lights& lights, const Scene::Slots& slots, const Settings& settings, const Seeds& seeds,
-           const ShadingList& list, const GBuffer& gbuffer, const Shading& target, const Drawn& drawn);
+void shade(gl::Device& device, const Lights& lights, const Scene::Slots& slots, const Settings& settings,
+           const Seeds& seeds, const ShadingList& list, const GBuffer& gbuffer, const Shading& target,
+           const Drawn& drawn);
 
 // What pixels that see no mesh show of the lights.
-void background(gl::Device& device, const Lights& lights, const Settings& settings, uint32_t width, uint32_t height, const GBuffer& gbuffer,
-                const Shading& target);
+void background(gl::Device& device, const Lights& lights, const Settings& settings, uint32_t width, uint32_t height,
+                const GBuffer& gbuffer, const Shading& target);
 
 }  // namespace lightband::passes

@@ -8,9 +8,9 @@
 
 namespace lightband::passes {
 
-// Pixels that are shaded although they might be interpolated (shaders/chosen_pixels.glsl): parts of all, 0 .. 1, chosen by chance. Control
-// pixels are the same in every round (frame/control_set.h); validation pixels are others in each, since the levels were chosen by the errors
-// of those before them.
+// Pixels that are shaded although they might be interpolated (shaders/chosen_pixels.glsl): parts of all, 0 .. 1, chosen
+// by chance. Control pixels are the same in every round (frame/control_set.h); validation pixels are others in each,
+// since the levels were chosen by the errors of those before them.
 struct ChosenPixels {
     double validation = 0, control = 0;
     uint32_t seed = 0, round = 1;

@@ -5,7 +5,8 @@
 namespace lightband::passes {
 namespace {
 
-const gl::Program& prepare(gl::Device& device, const char* definitions, const Pyramids& pyramids, const Shading& target) {
+const gl::Program& prepare(gl::Device& device, const char* definitions, const Pyramids& pyramids,
+                           const Shading& target) {
     const gl::Functions& gl = device.gl();
     const gl::Program& program = device.compute("upsample", definitions);
     program.use();
@@ -19,7 +20,8 @@ const gl::Program& prepare(gl::Device& device, const char* definitions, const Py
 
 }  // namespace
 
-void upsample(gl::Device& device, const Settings& settings, const Covered& covered, const Pyramids& pyramids, const Shading& target) {
+void upsample(gl::Device& device, const Settings& settings, const Covered& covered, const Pyramids& pyramids,
+              const Shading& target) {
     const gl::Program& program = prepare(device, "", pyramids, target);
     for (uint32_t level = settings.coarsest_level(); level-- > 0;) {
         program.set("level", int32_t(level));
@@ -28,8 +30,8 @@ void upsample(gl::Device& device, const Settings& settings, const Covered& cover
 }
 
 // No pixel of the finest lattice is interpolated from another, so that none is read after it was written.
-void combine(gl::Device& device, const Covered& covered, const Pyramids& pyramids, const std::vector<uint8_t>& neighbour_parts,
-             uint32_t width, const Shading& target) {
+void combine(gl::Device& device, const Covered& covered, const Pyramids& pyramids,
+             const std::vector<uint8_t>& neighbour_parts, uint32_t width, const Shading& target) {
     const gl::Functions& gl = device.gl();
     const uint32_t height = uint32_t(neighbour_parts.size() / width);
     const gl::Texture parts = gl::Texture::image(gl, GL_R8UI, width, height);

@@ -13,8 +13,8 @@ Budget budget_at(double scale, uint32_t least, uint32_t most) {
     return budget;
 }
 
-// The largest scale at which a condition that holds for small scales still holds: bisection over its logarithm, to far below
-// the rounding of a sample.
+// The largest scale at which a condition that holds for small scales still holds: bisection over its logarithm, to far
+// below the rounding of a sample.
 template <class Condition>
 double largest_scale(Condition holds) {
     double low = -64, high = 64;
@@ -27,7 +27,9 @@ double largest_scale(Condition holds) {
 
 }  // namespace
 
-double share_of(uint32_t bin) { return std::exp2((double(bin) - share_one) / bins_per_octave); }
+double share_of(uint32_t bin) {
+    return std::exp2((double(bin) - share_one) / bins_per_octave);
+}
 
 Budget plan_mean(const Histogram& histogram, double mean, uint32_t most) {
     double pixels = 0;
@@ -56,14 +58,16 @@ Budget plan_noise(const Histogram& histogram, double noise, uint32_t most, Alloc
     const double scale = largest_scale([&](double candidate) {
         return predicted_noise(histogram, budget_at(candidate, least, most), allocation) > noise;
     });
-    // Where the least samples suffice, bins above those that hold pixels have more all the same: further rounds may need them.
+    // Where the least samples suffice, bins above those that hold pixels have more all the same: further rounds may
+    // need them.
     uint32_t highest = budget_bins - 1;
     while (highest > 0 && histogram[highest] == 0) --highest;
     // The next sample up, where the noise is below the goal.
     return budget_at(std::max(scale * (1 + 1e-9), least / share_of(highest)), least, most);
 }
 
-RoundSamples round_samples(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels, const Budget& budget) {
+RoundSamples round_samples(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels,
+                           const Budget& budget) {
     RoundSamples result;
     const auto add = [&](double pixels, uint32_t bin) {
         result.pixels += pixels;
@@ -75,7 +79,8 @@ RoundSamples round_samples(const std::vector<SampledGroup>& sampled, const Histo
     return result;
 }
 
-Budget replan_cost(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels, double cost, double pixel_samples, uint32_t most) {
+Budget replan_cost(const std::vector<SampledGroup>& sampled, const Histogram& new_pixels, double cost,
+                   double pixel_samples, uint32_t most) {
     const uint32_t least = std::min(least_samples, most);
     const double scale = largest_scale([&](double candidate) {
         const RoundSamples all = round_samples(sampled, new_pixels, budget_at(candidate, least, most));

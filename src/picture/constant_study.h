@@ -1,4 +1,5 @@
-// Constants that bench/constants.py changes while the library runs, in a build with LIGHTBAND_STUDY: included by picture/constants.h.
+// Constants that bench/constants.py changes while the library runs, in a build with LIGHTBAND_STUDY: included by
+// picture/constants.h.
 #pragma once
 
 #include <cstdlib>
@@ -20,7 +21,8 @@ inline double studied_constant(const char* name, double* place, double standard)
     return standard;
 }
 
-// Before a frame: all constants are as in the table, but for the one that the environment variable LIGHTBAND_CONSTANT names, "name=value".
+// Before a frame: all constants are as in the table, but for the one that the environment variable LIGHTBAND_CONSTANT
+// names, "name=value".
 inline void choose_studied() {
     for (const auto& [name, constant] : studied()) *constant.place = constant.standard;
     const char* const chosen = std::getenv("LIGHTBAND_CONSTANT");

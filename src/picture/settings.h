@@ -6,10 +6,9 @@
 
 #include "bandwidth/transport.h"
 #include "bandwidth/wavelet.h"
+#include "lightband/lightband.h"
 #include "picture/budget.h"
 #include "scene/brdf.h"
-
-#include "lightband/lightband.h"
 
 namespace lightband {
 
@@ -38,7 +37,8 @@ public:
     Allocation allocation() const;
     Sequence sequence() const;
     Sampler sampler() const;
-    bool shares_follow_variance() const;  // or all pixels of one spacing have alike, as errs least under a cut (docs/decisions/0009)
+    bool shares_follow_variance()
+        const;  // or all pixels of one spacing have alike, as errs least under a cut (docs/decisions/0009)
     Lookup brdf_lookup() const;
     Lookup environment_lookup() const;
     bool split_suns() const;

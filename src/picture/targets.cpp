@@ -11,7 +11,8 @@ GBuffer::GBuffer(const gl::Functions& gl, uint32_t width, uint32_t height)
       material(Texture::image(gl, GL_R8UI, width, height)),
       depth(Texture::image(gl, GL_DEPTH_COMPONENT32F, width, height)) {}
 
-Pyramids::Pyramids(const gl::Functions& gl, uint32_t width, uint32_t picture_height, uint32_t coarsest_level, bool with_variances) {
+Pyramids::Pyramids(const gl::Functions& gl, uint32_t width, uint32_t picture_height, uint32_t coarsest_level,
+                   bool with_variances) {
     for (uint32_t level = 0, h = picture_height; level <= coarsest_level; ++level, h = (h + 1) / 2) {
         rows.push_back(height);
         height += h;
@@ -22,7 +23,8 @@ Pyramids::Pyramids(const gl::Functions& gl, uint32_t width, uint32_t picture_hei
 }
 
 Prediction::Prediction(const gl::Functions& gl, uint32_t width, uint32_t height)
-    : bandwidth(Texture::image(gl, GL_RGBA32F, width, height)), prediction(Texture::image(gl, GL_RG32F, width, height)) {}
+    : bandwidth(Texture::image(gl, GL_RGBA32F, width, height)),
+      prediction(Texture::image(gl, GL_RG32F, width, height)) {}
 
 Shading::Shading(const gl::Functions& gl, uint32_t width, uint32_t height)
     : radiance(Texture::image(gl, GL_RGBA32F, width, height)),

@@ -12,7 +12,8 @@ namespace lightband {
 
 // One texel per pixel, rows top-down.
 struct GBuffer {
-    gl::Texture surface;   // RGBA32F: unit normal towards the eye; depth, metres, negative where the normal had to be bent
+    gl::Texture
+        surface;  // RGBA32F: unit normal towards the eye; depth, metres, negative where the normal had to be bent
     gl::Texture material;  // R8UI: instance number + 1
     gl::Texture depth;     // for the rasteriser
     Camera::Rays rays{};   // along which the depths lie
@@ -35,8 +36,8 @@ struct Pyramids {
 
 // The bandwidth buffer, and what interpolation makes of it.
 struct Prediction {
-    gl::Texture bandwidth;   // RGBA32F: spatial, angular, image bandwidth, curvature
-    gl::Texture prediction;  // RG32F: variance of one sample, mean radiance
+    gl::Texture bandwidth;             // RGBA32F: spatial, angular, image bandwidth, curvature
+    gl::Texture prediction;            // RG32F: variance of one sample, mean radiance
     std::optional<Pyramids> pyramids;  // none where every pixel is shaded
 
     Prediction(const gl::Functions& gl, uint32_t width, uint32_t height);
@@ -44,18 +45,20 @@ struct Prediction {
 };
 
 struct Shading {
-    gl::Texture radiance;      // RGBA32F: RGB; where shaded: mean of squared luminance, where interpolated: variance of the mean
-    gl::Texture spread;        // RGBA32F: half the difference of two replicates' luminances; where a shaded pixel was compared with
-                               // interpolation, of the interpolated value: its deviation, how much its spread differs, its variance
-                               // (negative: something speaks against interpolation there, shaders/lattice.glsl)
+    gl::Texture
+        radiance;  // RGBA32F: RGB; where shaded: mean of squared luminance, where interpolated: variance of the mean
+    gl::Texture
+        spread;  // RGBA32F: half the difference of two replicates' luminances; where a shaded pixel was compared with
+                 // interpolation, of the interpolated value: its deviation, how much its spread differs, its variance
+                 // (negative: something speaks against interpolation there, shaders/lattice.glsl)
     gl::Texture sample_count;  // R32UI
     gl::Texture decision;      // R8UI: shaders/decision.glsl
 
     Shading(const gl::Functions& gl, uint32_t width, uint32_t height);
-    void clear(const gl::Functions& gl) const;   // nothing shaded yet
-    void forget(const gl::Functions& gl) const;  // how often: what is shaded anew is no continuation
+    void clear(const gl::Functions& gl) const;           // nothing shaded yet
+    void forget(const gl::Functions& gl) const;          // how often: what is shaded anew is no continuation
     void decide_nothing(const gl::Functions& gl) const;  // no pixel is shaded or interpolated
-    void decide_all(const gl::Functions& gl) const;  // every pixel to be shaded, with the samples of the first bin
+    void decide_all(const gl::Functions& gl) const;      // every pixel to be shaded, with the samples of the first bin
     size_t bytes() const { return radiance.bytes() + spread.bytes() + sample_count.bytes() + decision.bytes(); }
 };
 

@@ -82,12 +82,15 @@ std::vector<Source> find_sources(const RgbImage& map, double unit) {
         rest -= source.flux;
         found.push_back(std::move(source));
     }
-    found.erase(std::remove_if(found.begin(), found.end(), [&](const Source& source) { return source.flux < BrightSources::least_contrast * rest; }),
-                found.end());
+    found.erase(
+        std::remove_if(found.begin(), found.end(),
+                       [&](const Source& source) { return source.flux < BrightSources::least_contrast * rest; }),
+        found.end());
     return found;
 }
 
-// What surrounds some texels: the median of those beside them, of each channel; a median, since another source may be among them.
+// What surrounds some texels: the median of those beside them, of each channel; a median, since another source may be
+// among them.
 Vec3 level_around(const RgbImage& map, const std::vector<Place>& places) {
     const std::set<Place> inside(places.begin(), places.end());
     std::set<Place> around;
@@ -112,8 +115,10 @@ Vec3 level_around(const RgbImage& map, const std::vector<Place>& places) {
 // Lowers a source's texels to what surrounds them; the sun of what was taken off.
 Sun take_off(const Source& source, Lookup lookup, RgbImage* map) {
     const Vec3 level = level_around(*map, source.places);
-    // Of a texel's own width along an axis, the mean square: bilinear weights are triangles of half a width of one texel.
-    const double height = pi / map->height, width = 2 * pi / map->width, own_square = lookup == Lookup::linear ? 1.0 / 6 : 1.0 / 12;
+    // Of a texel's own width along an axis, the mean square: bilinear weights are triangles of half a width of one
+    // texel.
+    const double height = pi / map->height, width = 2 * pi / map->width,
+                 own_square = lookup == Lookup::linear ? 1.0 / 6 : 1.0 / 12;
     Vec3 flux(0), moment(0);
     double weights = 0, squares = 0;
     std::vector<std::pair<Vec3, double>> taken;
@@ -136,7 +141,8 @@ Sun take_off(const Source& source, Lookup lookup, RgbImage* map) {
     }
     Sun sun;
     sun.direction = glm::normalize(moment);
-    for (const auto& [direction, weight] : taken) squares += weight * glm::dot(direction - sun.direction, direction - sun.direction);
+    for (const auto& [direction, weight] : taken)
+        squares += weight * glm::dot(direction - sun.direction, direction - sun.direction);
     // Over a disc of radius a, the mean square of the distance from its middle is a^2 / 2.
     sun.angular_radius = std::clamp(std::sqrt(2 * squares / weights), Sun::least_radius, Sun::largest_radius);
     sun.irradiance = flux * (sun.projected_solid_angle() / sun.solid_angle());
@@ -150,7 +156,8 @@ double lookup_solid_angle(uint32_t width, uint32_t height, uint32_t row, Lookup 
     if (lookup == Lookup::nearest) return 2 * pi / width * (std::cos(polar - h / 2) - std::cos(polar + h / 2));
     // The integral of (1 - |t| / h) sin(polar + t) to either side; beyond the first and the last row, texels are held.
     const double up = row == 0 ? 1 - std::cos(polar) : -std::cos(polar) - (std::sin(polar - h) - std::sin(polar)) / h;
-    const double down = row + 1 == height ? 1 + std::cos(polar) : std::cos(polar) - (std::sin(polar + h) - std::sin(polar)) / h;
+    const double down =
+        row + 1 == height ? 1 + std::cos(polar) : std::cos(polar) - (std::sin(polar + h) - std::sin(polar)) / h;
     return 2 * pi / width * (up + down);
 }
 

@@ -6,7 +6,8 @@
 namespace lightband {
 
 struct Sun {
-    // Radians. The sun as it is seen from the earth; less than the least, a disc's edge would be lost in the rounding of floats.
+    // Radians. The sun as it is seen from the earth; less than the least, a disc's edge would be lost in the rounding
+    // of floats.
     static constexpr double standard_radius = 0.004652, least_radius = 1e-4, largest_radius = pi / 2;
 
     Vec3 direction{0, 1, 0};  // unit, towards the sun

@@ -166,7 +166,8 @@ static const struct call {
     {"lb_frame_render, scene", SCENE, scene_of_a_render},
 };
 enum { CALLS = sizeof(calls) / sizeof(calls[0]) };
-static const char* const kind_names[KINDS] = {"context", "brdf", "environment", "light", "mesh", "scene", "frame", "buffer"};
+static const char* const kind_names[KINDS] = {"context", "brdf",  "environment", "light",
+                                              "mesh",    "scene", "frame",       "buffer"};
 
 static lb_buffer make_buffer(void) {
     lb_buffer buffer = NULL;

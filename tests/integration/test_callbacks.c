@@ -1,4 +1,5 @@
-/* A callback must not call the library: every entry point, in every callback, fails with LB_ERROR_INVALID_STATE and changes nothing. */
+/* A callback must not call the library: every entry point, in every callback, fails with LB_ERROR_INVALID_STATE and
+ * changes nothing. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +7,8 @@
 
 #include "support.h"
 
-/* ---- Every call ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Every call
+ * ------------------------------------------------------------------------------------------------------------------ */
 
 /* What the calls are given: valid objects of the world, so that each would succeed elsewhere. */
 static lb_buffer buffer;
@@ -14,8 +16,10 @@ static lb_light sun;
 static lb_sun_desc sun_desc = LB_SUN_DESC_INIT;
 static lb_context_desc software = LB_CONTEXT_DESC_INIT;
 
-#define CALL(function, ...) \
-    static lb_result call_##function(void) { return function(__VA_ARGS__); }
+#define CALL(function, ...)                  \
+    static lb_result call_##function(void) { \
+        return function(__VA_ARGS__);        \
+    }
 static const float some_vector[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 static float some_floats[3];
 static uint32_t number;
@@ -90,34 +94,75 @@ CALL(lb_frame_map, world.frame, "color", (lb_buffer*)&made, &view)
 CALL(lb_frame_save, world.frame, "never-written.exr", NULL)
 #undef CALL
 
-#define ENTRY(function) {#function, call_##function}
+#define ENTRY(function) \
+    { #function, call_##function }
 static const struct {
     const char* name;
     lb_result (*call)(void);
 } calls[] = {
-    ENTRY(lb_context_create), ENTRY(lb_context_device_name), ENTRY(lb_context_is_software), ENTRY(lb_context_retain),
-    ENTRY(lb_context_release), ENTRY(lb_brdf_retain), ENTRY(lb_brdf_release), ENTRY(lb_environment_retain),
-    ENTRY(lb_environment_release), ENTRY(lb_mesh_retain), ENTRY(lb_mesh_release), ENTRY(lb_light_retain),
-    ENTRY(lb_light_release), ENTRY(lb_scene_retain), ENTRY(lb_scene_release),
-    ENTRY(lb_frame_retain), ENTRY(lb_frame_release), ENTRY(lb_buffer_retain), ENTRY(lb_buffer_release),
-    ENTRY(lb_brdf_load), ENTRY(lb_brdf_load_as_measured),
-    ENTRY(lb_brdf_builtin), ENTRY(lb_brdf_create_table), ENTRY(lb_brdf_create_lambert), ENTRY(lb_brdf_create_ggx),
-    ENTRY(lb_brdf_evaluate), ENTRY(lb_brdf_albedo), ENTRY(lb_brdf_map), ENTRY(lb_environment_load),
+    ENTRY(lb_context_create),
+    ENTRY(lb_context_device_name),
+    ENTRY(lb_context_is_software),
+    ENTRY(lb_context_retain),
+    ENTRY(lb_context_release),
+    ENTRY(lb_brdf_retain),
+    ENTRY(lb_brdf_release),
+    ENTRY(lb_environment_retain),
+    ENTRY(lb_environment_release),
+    ENTRY(lb_mesh_retain),
+    ENTRY(lb_mesh_release),
+    ENTRY(lb_light_retain),
+    ENTRY(lb_light_release),
+    ENTRY(lb_scene_retain),
+    ENTRY(lb_scene_release),
+    ENTRY(lb_frame_retain),
+    ENTRY(lb_frame_release),
+    ENTRY(lb_buffer_retain),
+    ENTRY(lb_buffer_release),
+    ENTRY(lb_brdf_load),
+    ENTRY(lb_brdf_load_as_measured),
+    ENTRY(lb_brdf_builtin),
+    ENTRY(lb_brdf_create_table),
+    ENTRY(lb_brdf_create_lambert),
+    ENTRY(lb_brdf_create_ggx),
+    ENTRY(lb_brdf_evaluate),
+    ENTRY(lb_brdf_albedo),
+    ENTRY(lb_brdf_map),
+    ENTRY(lb_environment_load),
     ENTRY(lb_environment_create),
-    ENTRY(lb_environment_map), ENTRY(lb_mesh_create), ENTRY(lb_mesh_builtin), ENTRY(lb_mesh_info),
-    ENTRY(lb_sun_create), ENTRY(lb_sun_set), ENTRY(lb_scene_create), ENTRY(lb_scene_add_light),
+    ENTRY(lb_environment_map),
+    ENTRY(lb_mesh_create),
+    ENTRY(lb_mesh_builtin),
+    ENTRY(lb_mesh_info),
+    ENTRY(lb_sun_create),
+    ENTRY(lb_sun_set),
+    ENTRY(lb_scene_create),
+    ENTRY(lb_scene_add_light),
     ENTRY(lb_scene_remove_light),
-    ENTRY(lb_scene_set_environment), ENTRY(lb_scene_set_camera), ENTRY(lb_scene_add), ENTRY(lb_scene_set_transform),
-    ENTRY(lb_scene_set_double_sided), ENTRY(lb_frame_create), ENTRY(lb_frame_set_number), ENTRY(lb_frame_set_choice),
-    ENTRY(lb_frame_get_number), ENTRY(lb_frame_get_choice), ENTRY(lb_setting_at), ENTRY(lb_frame_render),
+    ENTRY(lb_scene_set_environment),
+    ENTRY(lb_scene_set_camera),
+    ENTRY(lb_scene_add),
+    ENTRY(lb_scene_set_transform),
+    ENTRY(lb_scene_set_double_sided),
+    ENTRY(lb_frame_create),
+    ENTRY(lb_frame_set_number),
+    ENTRY(lb_frame_set_choice),
+    ENTRY(lb_frame_get_number),
+    ENTRY(lb_frame_get_choice),
+    ENTRY(lb_setting_at),
+    ENTRY(lb_frame_render),
     ENTRY(lb_frame_info),
-    ENTRY(lb_frame_plan), ENTRY(lb_frame_explain), ENTRY(lb_frame_map), ENTRY(lb_frame_save),
+    ENTRY(lb_frame_plan),
+    ENTRY(lb_frame_explain),
+    ENTRY(lb_frame_map),
+    ENTRY(lb_frame_save),
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 
 /* Those that return no lb_result: they tell of the library alone and work everywhere. */
-static const char* const informing[] = {"lb_brdf_builtin_count", "lb_brdf_builtin_name", "lb_error_message", "lb_frame_buffer_count",
-                                        "lb_frame_buffer_name",  "lb_result_name",       "lb_setting_count", "lb_version"};
+static const char* const informing[] = {
+    "lb_brdf_builtin_count", "lb_brdf_builtin_name", "lb_error_message", "lb_frame_buffer_count",
+    "lb_frame_buffer_name",  "lb_result_name",       "lb_setting_count", "lb_version"};
 
 static int is_known(const char* name) {
     for (size_t i = 0; i < CALLS; ++i)
@@ -141,9 +186,10 @@ static void every_entry_point_is_here(void** state) {
     assert_int_equal(count, CALLS + sizeof informing / sizeof *informing);
 }
 
-/* ---- The callbacks --------------------------------------------------------------------------------------------------------------- */
+/* ---- The callbacks
+ * --------------------------------------------------------------------------------------------------------------- */
 
-static int runs;         /* of callbacks */
+static int runs;          /* of callbacks */
 static char failure[256]; /* of the first call that was not refused */
 
 static void call_everything(void) {
@@ -152,9 +198,11 @@ static void call_everything(void) {
         made = NULL;
         const lb_result result = calls[i].call();
         if (result != LB_ERROR_INVALID_STATE || strstr(lb_error_message(), "callback") == NULL || made != NULL)
-            snprintf(failure, sizeof failure, "%s in a callback: %s, \"%s\"", calls[i].name, lb_result_name(result), lb_error_message());
+            snprintf(failure, sizeof failure, "%s in a callback: %s, \"%s\"", calls[i].name, lb_result_name(result),
+                     lb_error_message());
     }
-    if (lb_version() == 0 || strcmp(lb_result_name(LB_OK), "LB_OK") != 0 || lb_setting_count() == 0 || lb_brdf_builtin_count() == 0)
+    if (lb_version() == 0 || strcmp(lb_result_name(LB_OK), "LB_OK") != 0 || lb_setting_count() == 0 ||
+        lb_brdf_builtin_count() == 0)
         snprintf(failure, sizeof failure, "the library tells nothing of itself in a callback");
 }
 
@@ -239,11 +287,13 @@ static int32_t let_another_call(void* result, double fraction) {
 static void another_thread_may_call_meanwhile(void** state) {
     (void)state;
     lb_result result = -1;
-    assert_refused(lb_frame_render(world.frame, world.scene, let_another_call, &result), LB_ERROR_CANCELLED, "cancelled");
+    assert_refused(lb_frame_render(world.frame, world.scene, let_another_call, &result), LB_ERROR_CANCELLED,
+                   "cancelled");
     assert_int_equal(result, LB_OK);
 }
 
-/* ---- A callback that ends its thread --------------------------------------------------------------------------------------------- */
+/* ---- A callback that ends its thread
+ * --------------------------------------------------------------------------------------------- */
 
 static int32_t end_thread(void* user, double fraction) {
     (void)user;
@@ -285,7 +335,8 @@ static void a_thread_may_end_in_a_callback(void** state) {
     }
 }
 
-/* ---- Cancellation ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Cancellation
+ * ---------------------------------------------------------------------------------------------------------------- */
 
 static int cleaned_up, called_again;
 
@@ -298,7 +349,8 @@ static void* cancel_itself_and_call(void* unused) {
     float rgb[3];
     pthread_cleanup_push(clean_up, NULL);
     pthread_cancel(pthread_self());
-    called_again = lb_frame_render(world.frame, world.scene, NULL, NULL) == LB_OK && lb_brdf_albedo(world.brdf, 0.5f, rgb) == LB_OK;
+    called_again = lb_frame_render(world.frame, world.scene, NULL, NULL) == LB_OK &&
+                   lb_brdf_albedo(world.brdf, 0.5f, rgb) == LB_OK;
     pthread_testcancel();
     pthread_cleanup_pop(0);
     return unused;

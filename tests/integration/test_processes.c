@@ -7,7 +7,9 @@
 
 static float picture[PICTURE_FLOATS];
 
-/* ---- Fork ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- Fork
+ * ------------------------------------------------------------------------------------------------------------------------
+ */
 
 static void must_be_refused_for_fork(lb_result result) {
     must(result == LB_ERROR_INVALID_STATE && strstr(lb_error_message(), "fork") != NULL);
@@ -105,8 +107,10 @@ static int32_t fork_in_callback(void* unused, double fraction) {
     (void)unused;
     if (fraction > 0) return 0;
     const pid_t child = fork();
-    if (child != 0) must(status_of(child) == 0);
-    else alarm(PATIENCE / 4);
+    if (child != 0)
+        must(status_of(child) == 0);
+    else
+        alarm(PATIENCE / 4);
     return 0;
 }
 
@@ -121,7 +125,8 @@ static void a_callback_may_fork_child(void) {
 }
 IN_PROCESS(a_callback_may_fork)
 
-/* ---- The end of the process ------------------------------------------------------------------------------------------------------ */
+/* ---- The end of the process
+ * ------------------------------------------------------------------------------------------------------ */
 
 static void* create_for_ever(void* unused) {
     lb_context_desc desc = LB_CONTEXT_DESC_INIT;
@@ -137,7 +142,8 @@ static void* create_for_ever(void* unused) {
 static void* compute_for_ever(void* unused) {
     for (uint32_t i = 0;; ++i) {
         lb_brdf brdf = NULL;
-        if (lb_brdf_builtin(world.context, lb_brdf_builtin_name(i % lb_brdf_builtin_count()), &brdf) != LB_OK) return unused;
+        if (lb_brdf_builtin(world.context, lb_brdf_builtin_name(i % lb_brdf_builtin_count()), &brdf) != LB_OK)
+            return unused;
         lb_brdf_release(brdf);
     }
 }
@@ -166,7 +172,8 @@ static void end_while_a_thread_is_inside(void) {
 
 static void a_process_ends_while_threads_are_inside(void** state) {
     (void)state;
-    void* (*const threads[])(void*) = {render_for_ever, call_for_ever, create_for_ever, compute_for_ever, sleep_in_a_callback};
+    void* (*const threads[])(void*) = {render_for_ever, call_for_ever, create_for_ever, compute_for_ever,
+                                       sleep_in_a_callback};
     for (size_t i = 0; i < sizeof threads / sizeof *threads; ++i)
         for (milliseconds_to_exit = 1; milliseconds_to_exit <= 64; milliseconds_to_exit *= 8) {
             thread_at_exit = threads[i];
@@ -187,8 +194,8 @@ static void exit_in_a_callback_child(void) {
 }
 IN_PROCESS(exit_in_a_callback)
 
-/* Takes the place of the C library's function, for this program and for all libraries it loads: counts the exit handlers that others than
- * liblightband register. */
+/* Takes the place of the C library's function, for this program and for all libraries it loads: counts the exit
+ * handlers that others than liblightband register. */
 static atomic_int foreign_exit_handlers;
 
 __attribute__((visibility("default"))) int __cxa_atexit(void (*function)(void*), void* object, void* library);
@@ -202,8 +209,9 @@ int __cxa_atexit(void (*function)(void*), void* object, void* library) {
     return next(function, object, library);
 }
 
-/* The compiler of the driver registers the destruction of its static objects when it first compiles. If it did so while pictures are drawn,
- * these objects would be destroyed before the library's exit handler has brought the threads to rest that use them. */
+/* The compiler of the driver registers the destruction of its static objects when it first compiles. If it did so while
+ * pictures are drawn, these objects would be destroyed before the library's exit handler has brought the threads to
+ * rest that use them. */
 static void draw_first_picture(void) {
     make_picture_objects(&world);
     foreign_exit_handlers = 0;
@@ -235,8 +243,8 @@ static void the_driver_registers_exit_handlers_before_the_first_picture(void** s
     assert_int_equal(system(command), 0);
 }
 
-/* Exit handlers run in reverse order. One that was registered after the first context runs while the driver is whole; to one that was
- * registered before, calls fail and releases do nothing. */
+/* Exit handlers run in reverse order. One that was registered after the first context runs while the driver is whole;
+ * to one that was registered before, calls fail and releases do nothing. */
 static void draw_at_exit(void) {
     float after[PICTURE_FLOATS];
     draw_picture(&world, after, NULL);
@@ -259,7 +267,9 @@ IN_PROCESS(exit_handlers_may_call)
 
 static pthread_t worker;
 
-static void join_worker(void) { must(pthread_join(worker, NULL) == 0); }
+static void join_worker(void) {
+    must(pthread_join(worker, NULL) == 0);
+}
 
 static void exit_handlers_may_join_a_calling_thread_child(void) {
     must(atexit(join_worker) == 0);

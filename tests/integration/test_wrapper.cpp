@@ -111,7 +111,8 @@ struct GermanNumbers : std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-// What the library writes and reads while that locale is the host's: plan, message, and a picture that is saved and loaded again.
+// What the library writes and reads while that locale is the host's: plan, message, and a picture that is saved and
+// loaded again.
 std::vector<std::string> texts() {
     Objects objects;
     lightband::Frame frame = objects.context.frame(128, 64);

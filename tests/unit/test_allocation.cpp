@@ -14,7 +14,6 @@
 #include <ImfRgbaFile.h>
 #include <ImfStdIO.h>
 #include <ImfTiledOutputFile.h>
-
 #include <malloc.h>
 
 #include <atomic>
@@ -65,8 +64,8 @@ void release(void* memory) {
 
 }  // namespace
 
-// zlib and libpng call malloc, and so does allocate above. (AddressSanitizer has a malloc of its own; with it, operator new
-// alone fails.)
+// zlib and libpng call malloc, and so does allocate above. (AddressSanitizer has a malloc of its own; with it, operator
+// new alone fails.)
 #if !defined(__SANITIZE_ADDRESS__)
 extern "C" {
 void* __libc_malloc(size_t);

@@ -36,7 +36,8 @@ Vec3 flux_of(const RgbImage& map, Lookup lookup) {
     Vec3 flux(0);
     for (uint32_t y = 0; y < map.height; ++y)
         for (uint32_t x = 0; x < map.width; ++x)
-            for (int c = 0; c < 3; ++c) flux[c] += double(map.texel(x, y)[c]) * lookup_solid_angle(map.width, map.height, y, lookup);
+            for (int c = 0; c < 3; ++c)
+                flux[c] += double(map.texel(x, y)[c]) * lookup_solid_angle(map.width, map.height, y, lookup);
     return flux;
 }
 
@@ -88,7 +89,8 @@ void lookups_cover_the_sphere(void**) {
 void what_is_not_bright_beside_the_sky_stays(void**) {
     for (const double share : {0.4, 0.6}) {
         const double radiance = share * 4 * pi / (pi * 0.01 * 0.01);
-        assert_int_equal(split_bright_sources(sky(2048, 1, {{right, 0.01, radiance}}), 1, Lookup::linear).suns.size(), share > 0.5 ? 1 : 0);
+        assert_int_equal(split_bright_sources(sky(2048, 1, {{right, 0.01, radiance}}), 1, Lookup::linear).suns.size(),
+                         share > 0.5 ? 1 : 0);
     }
 }
 
@@ -111,7 +113,8 @@ void a_texel_in_the_dark_is_a_sun(void**) {
     assert_int_equal(found.suns.size(), 1);
     const Vec3 direction = direction_of(Vec2(7.5 / 512, 200.5 / 256));
     check_close("distance", glm::length(found.suns[0].direction - direction), 0, 1e-12);
-    // The mean square of the distance from the middle of the pyramid that linear lookup makes of a texel, a sixth of its width each way.
+    // The mean square of the distance from the middle of the pyramid that linear lookup makes of a texel, a sixth of
+    // its width each way.
     const double width = pi / 256, across = std::sqrt(1 - direction.y * direction.y);
     check_close("radius", found.suns[0].angular_radius, width * std::sqrt((1 + across * across) / 3), 1e-12);
 }
@@ -138,12 +141,15 @@ void a_sun_is_a_disc(void**) {
     }
 }
 
-// 95 % of the energy of the disc's spectrum 2 J1(x) / x lies below x = 2 pi a nu; and beyond the other rule's, no amplitude exceeds a hundredth.
+// 95 % of the energy of the disc's spectrum 2 J1(x) / x lies below x = 2 pi a nu; and beyond the other rule's, no
+// amplitude exceeds a hundredth.
 void a_discs_bandwidth_is_that_of_its_spectrum(void**) {
-    const double x = 2 * pi * 0.01 * disc_bandwidth(0.01, BandRule::energy), y = 2 * pi * disc_bandwidth(1, BandRule::sum);
+    const double x = 2 * pi * 0.01 * disc_bandwidth(0.01, BandRule::energy),
+                 y = 2 * pi * disc_bandwidth(1, BandRule::sum);
     const double beyond = std::pow(std::cyl_bessel_j(0, x), 2) + std::pow(std::cyl_bessel_j(1, x), 2);
     check_close("energy beyond", beyond, 0.05, 0.002);
-    for (double at = y; at < 10 * y; at += 0.1) check_at_most("amplitude", std::abs(2 * std::cyl_bessel_j(1, at) / at), 0.01);
+    for (double at = y; at < 10 * y; at += 0.1)
+        check_at_most("amplitude", std::abs(2 * std::cyl_bessel_j(1, at) / at), 0.01);
 }
 
 }  // namespace
@@ -152,14 +158,10 @@ void a_discs_bandwidth_is_that_of_its_spectrum(void**) {
 int main() {
     using namespace lightband;
     const CMUnitTest tests[] = {
-        cmocka_unit_test(discs_are_found),
-        cmocka_unit_test(light_is_kept),
-        cmocka_unit_test(lookups_cover_the_sphere),
-        cmocka_unit_test(what_is_not_bright_beside_the_sky_stays),
-        cmocka_unit_test(wide_lights_stay),
-        cmocka_unit_test(a_texel_in_the_dark_is_a_sun),
-        cmocka_unit_test(a_sun_is_a_disc),
-        cmocka_unit_test(a_discs_bandwidth_is_that_of_its_spectrum),
+        cmocka_unit_test(discs_are_found),          cmocka_unit_test(light_is_kept),
+        cmocka_unit_test(lookups_cover_the_sphere), cmocka_unit_test(what_is_not_bright_beside_the_sky_stays),
+        cmocka_unit_test(wide_lights_stay),         cmocka_unit_test(a_texel_in_the_dark_is_a_sun),
+        cmocka_unit_test(a_sun_is_a_disc),          cmocka_unit_test(a_discs_bandwidth_is_that_of_its_spectrum),
     };
     return cmocka_run_group_tests_name("bright sources", tests, nullptr, nullptr);
 }

@@ -233,8 +233,9 @@ void tables_keep_their_albedo_to_grazing(void**) {
     }
 }
 
-// Cells that lie mirrored in phi_diff have light and eye exchanged, also where the horizon crosses them and the value is that of a place
-// beside the centre. A table is made of one half of the cells and its mirror image, so that the model is asked about each of them here.
+// Cells that lie mirrored in phi_diff have light and eye exchanged, also where the horizon crosses them and the value
+// is that of a place beside the centre. A table is made of one half of the cells and its mirror image, so that the
+// model is asked about each of them here.
 void tables_are_reciprocal_across_the_horizon(void**) {
     // Of cosines near zero: the middle of what lies above the horizon is found to 5e-13 of the cell's diagonal.
     constexpr double relative_rounding = 1e-6;
@@ -244,7 +245,8 @@ void tables_are_reciprocal_across_the_horizon(void**) {
         for (size_t cell = 0; cell < BrdfTable::cell_count; ++cell) {
             const TableCell place = TableCell::numbered(cell);
             if (!place.reaches_above_horizon() || place.centre().lower_cosine() > 0) continue;
-            const size_t mirror = BrdfTable::cell(place.theta_half, place.theta_diff, BrdfTable::phi_diff_cells - 1 - place.phi_diff);
+            const size_t mirror =
+                BrdfTable::cell(place.theta_half, place.theta_diff, BrdfTable::phi_diff_cells - 1 - place.phi_diff);
             const Vec3 there = cell_value(*model, cell), back = cell_value(*model, mirror);
             for (int c = 0; c < 3; ++c)
                 if (!(std::fabs(there[c] - back[c]) <= relative_rounding * std::fabs(there[c])))

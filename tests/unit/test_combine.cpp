@@ -22,16 +22,18 @@ struct Picture {
     RoundPixels pixels;
     std::vector<double> own, interpolated;  // errors
 
-    Picture(Random& random, double own_noise, double other_noise, double bias_finest, double bias_coarser, double seen = 1) {
+    Picture(Random& random, double own_noise, double other_noise, double bias_finest, double bias_coarser,
+            double seen = 1) {
         for (uint32_t i = 0; i < side * side; ++i) {
             const double bias = lattice_level(i % side, i / side, 6) == 0 ? bias_finest : bias_coarser;
             own.push_back(own_noise * normal(random));
             interpolated.push_back(other_noise * normal(random) + bias * (random.uniform() < 0.5 ? -1 : 1));
             const double spread = seen * own_noise * normal(random), other = seen * other_noise * normal(random);
             const float value = float(radiance + own[i]);
-            pixels.radiance.insert(pixels.radiance.end(), {value, value, value, value * value + float(15 * own_noise * own_noise)});
-            pixels.spread.insert(pixels.spread.end(), {float(spread), float(interpolated[i] - own[i]), float(other - spread),
-                                                       float(other_noise * other_noise)});
+            pixels.radiance.insert(pixels.radiance.end(),
+                                   {value, value, value, value * value + float(15 * own_noise * own_noise)});
+            pixels.spread.insert(pixels.spread.end(), {float(spread), float(interpolated[i] - own[i]),
+                                                       float(other - spread), float(other_noise * other_noise)});
             pixels.sample_count.push_back(16);
             pixels.decision.push_back(first_bin | validation_bit);
             pixels.material.push_back(1);
@@ -42,7 +44,9 @@ struct Picture {
     }
 };
 
-bool is_finest(uint32_t i) { return lattice_level(i % side, i / side, 6) == 0; }
+bool is_finest(uint32_t i) {
+    return lattice_level(i % side, i / side, 6) == 0;
+}
 
 double mean_part(const std::vector<uint8_t>& parts) {
     double sum = 0, count = 0;
@@ -56,7 +60,8 @@ double mean_part(const std::vector<uint8_t>& parts) {
 void the_weight_is_the_one_with_least_error(void**) {
     Random random(21);
     check_close("noise alone", mean_part(Picture(random, 0.02, 0.01, 0, 0).parts()), 0.8, 0.04);
-    check_close("interpolation as bad", mean_part(Picture(random, 0.02, 0.01, 0.03, 0.12).parts()), 4 / (4 + 1 + 9.0), 0.04);
+    check_close("interpolation as bad", mean_part(Picture(random, 0.02, 0.01, 0.03, 0.12).parts()), 4 / (4 + 1 + 9.0),
+                0.04);
     check_close("an edge", mean_part(Picture(random, 0.02, 0.01, 0.4, 0.6).parts()), 0, 0.01);
 }
 
@@ -106,7 +111,8 @@ void the_estimate_is_of_what_is_displayed(void**) {
         double sum = 0;
         for (uint32_t i = 0; i < side * side; ++i) {
             const double part = picture.pixels.neighbour_part[i] / 255.0;
-            sum += std::pow(((1 - part) * picture.own[i] + part * picture.interpolated[i]) / (1 + dark_part) / radiance, 2);
+            sum += std::pow(((1 - part) * picture.own[i] + part * picture.interpolated[i]) / (1 + dark_part) / radiance,
+                            2);
         }
         check_close("squared error", estimate.error() * estimate.error() / (sum / side / side), 1, 0.15);
     }

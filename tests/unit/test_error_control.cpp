@@ -99,7 +99,10 @@ void interpolation_is_given_up_where_no_levels_suffice(void**) {
         const char* also;
         double value;
         bool gives_up;
-    } cases[] = {{0.1, "seed", 1, true}, {0.01, "seed", 1, false}, {0.1, "bandwidth_scale", 1, false}, {0.1, "time_budget", 1e6, false}};
+    } cases[] = {{0.1, "seed", 1, true},
+                 {0.01, "seed", 1, false},
+                 {0.1, "bandwidth_scale", 1, false},
+                 {0.1, "time_budget", 1e6, false}};
     for (const auto& own : cases) {
         Settings settings = asking("target_error", 0.05);
         settings.set_number(own.also, own.value);
@@ -152,7 +155,8 @@ RoundPixels unequal(Random& random, size_t count, uint32_t samples) {
 
 Budget sixty_four_at_share_one() {
     Budget budget(budget_bins);
-    for (uint32_t bin = 0; bin < budget_bins; ++bin) budget[bin] = uint32_t(std::clamp(std::round(64 * share_of(bin)), 16.0, 65536.0));
+    for (uint32_t bin = 0; bin < budget_bins; ++bin)
+        budget[bin] = uint32_t(std::clamp(std::round(64 * share_of(bin)), 16.0, 65536.0));
     return budget;
 }
 
@@ -179,9 +183,11 @@ void pixels_that_vary_most_are_resampled(void**) {
         // from the mean of all pixels, which makes 0.12 of the quiet pixels' 0.04. That is planned to be left of them,
         // of 0.44 of all.
         check_at_most("noise left over the part that was asked for", after / before / part, 1.25);
-        check_at_most("the part asked for less what quiet pixels are planned to leave", part - 0.9 * 0.12 / 0.44, 1.25 * after / before);
+        check_at_most("the part asked for less what quiet pixels are planned to leave", part - 0.9 * 0.12 / 0.44,
+                      1.25 * after / before);
         // Resampling all pixels would need this many samples for the same noise.
-        check_at_most("samples over those of resampling all", resampled, 0.5 * 10000 * 64 * std::pow(part, -1 / constants::stratified_gain));
+        check_at_most("samples over those of resampling all", resampled,
+                      0.5 * 10000 * 64 * std::pow(part, -1 / constants::stratified_gain));
         const RoundSamples all = round_samples(next.sampled, Histogram(budget_bins), budget);
         check_close("samples", all.samples, resampled, 0);
         check_close("growth", next.growth, (resampled + kept) / (64 * 10000), 1e-12);
@@ -196,9 +202,11 @@ void the_pixel_that_errs_most_is_resampled(void**) {
     const size_t worst = 5000;
     pixels.radiance[4 * worst + 3] = 1e6;
     Budget budget(budget_bins);
-    for (uint32_t bin = 0; bin < budget_bins; ++bin) budget[bin] = uint32_t(std::clamp(std::round(426.55 * share_of(bin)), 16.0, 65536.0));
+    for (uint32_t bin = 0; bin < budget_bins; ++bin)
+        budget[bin] = uint32_t(std::clamp(std::round(426.55 * share_of(bin)), 16.0, 65536.0));
     const Resampling next = plan_resampling(pixels, {}, 2, Allocation::least_error, budget, 0.9);
-    for (size_t i = 0; i < 10000; ++i) assert_true((budget[next.bins[i]] >= least_resampling_factor * 427) == (i == worst));
+    for (size_t i = 0; i < 10000; ++i)
+        assert_true((budget[next.bins[i]] >= least_resampling_factor * 427) == (i == worst));
 }
 
 void further_rounds_within_a_cost_spend_it(void**) {
@@ -280,7 +288,8 @@ void pilot_samples_plan_the_first_round(void**) {
         Histogram histogram(budget_bins);
         histogram[bin] = 1000;
         // Samples are whole numbers: of some 300, a half is a six-hundredth.
-        check_close("samples", control.plan(histogram, 0)[bin] / (64 * std::pow(1e-3 / planned, 1 / 1.2)), 1, 1.0 / 300);
+        check_close("samples", control.plan(histogram, 0)[bin] / (64 * std::pow(1e-3 / planned, 1 / 1.2)), 1,
+                    1.0 / 300);
     }
 }
 
@@ -328,7 +337,8 @@ void a_time_budget_is_divided_between_two_rounds(void**) {
     assert_true(control.needs_another_round(estimate_of(0.01, 0), cost));
     const std::vector<SampledGroup> sampled = {{30, 16, 1000}, {33, 16, 500}, {36, 16, 20}};
     const Budget second = control.plan_further(sampled, Histogram(budget_bins), cost.elapsed_milliseconds);
-    check_close("second round, milliseconds", (samples(second) + before_first) / 500, 1000 - cost.elapsed_milliseconds - 12, 4);
+    check_close("second round, milliseconds", (samples(second) + before_first) / 500,
+                1000 - cost.elapsed_milliseconds - 12, 4);
     cost.elapsed_milliseconds = 990;
     assert_false(control.needs_another_round(estimate_of(0.01, 0), cost));
     // A round in which shaders were compiled does not change the throughput of later rounds, which find them compiled.

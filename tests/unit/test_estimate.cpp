@@ -28,11 +28,13 @@ RoundPixels synthetic(Random& random, size_t count, double variance, double bias
         pixels.radiance.insert(pixels.radiance.end(), {float(radiance), float(radiance), float(radiance), 0});
         const bool sampled = decision != interpolated;
         // The mean of squares whose unbiased variance is the given one; or the variance of the mean.
-        pixels.radiance.back() = float(sampled ? radiance * radiance + variance * (samples - 1) / samples : variance / samples);
+        pixels.radiance.back() =
+            float(sampled ? radiance * radiance + variance * (samples - 1) / samples : variance / samples);
         // The value interpolated at a validation pixel has as much noise of its own, and the bias.
         if (decision == validation)
-            pixels.spread.insert(pixels.spread.end(), {float(spread), float(bias + deviation * normal(random) - noise),
-                                                       float(deviation * normal(random) - spread), float(variance / samples)});
+            pixels.spread.insert(pixels.spread.end(),
+                                 {float(spread), float(bias + deviation * normal(random) - noise),
+                                  float(deviation * normal(random) - spread), float(variance / samples)});
         else
             pixels.spread.insert(pixels.spread.end(), {float(spread), 0, 0, 0});
         pixels.sample_count.push_back(sampled ? samples : 0);
@@ -76,7 +78,8 @@ void root_mean_square_of_pixel_errors_is_the_frames_error(void**) {
     for (float& value : shape) value = float(random.uniform());
     double sum = 0;
     for (float error : pixel_errors(pixels, estimate, {0}, shape)) sum += double(error) * error;
-    check_close("root mean square", std::sqrt(sum / 5000) / estimate.error(), 1, 1e-5);  // floats, summed in double precision
+    check_close("root mean square", std::sqrt(sum / 5000) / estimate.error(), 1,
+                1e-5);  // floats, summed in double precision
 }
 
 void a_frame_without_light_has_no_error(void**) {
@@ -94,7 +97,8 @@ void a_frame_without_light_has_no_error(void**) {
 void tiles_count_their_own_validation_pixels(void**) {
     Random random(14);
     // Of 40 pixels a row: three tiles, the last of 8 pixels, and two rows of them.
-    const ErrorEstimate estimate = estimate_error(synthetic(random, 40 * 24, 0.16, 0.1), {0}, 1, {}, tiles_of_picture(40, 24));
+    const ErrorEstimate estimate =
+        estimate_error(synthetic(random, 40 * 24, 0.16, 0.1), {0}, 1, {}, tiles_of_picture(40, 24));
     assert_int_equal(estimate.tiles.size(), 6);
     uint64_t validation_pixels = 0, interpolated_pixels = 0;
     for (const ErrorEstimate::Tile& tile : estimate.tiles) {
@@ -154,7 +158,8 @@ void control_samples_see_an_error_that_neighbours_share(void**) {
     const double shared = 0.2, scale = 2.22;
     RoundPixels pixels = synthetic(random, 20000, 1e-6, 0);
     ControlSet control;
-    for (const uint32_t i : control_places(20000)) control.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, 0, false});
+    for (const uint32_t i : control_places(20000))
+        control.pixels.push_back({i, float(pixels.radiance[4 * i] + shared), 0, 0, 0, false});
     const ErrorEstimate estimate = estimated(pixels, control);
     check_at_most("interpolation, as validation pixels see it", estimate.interpolation, 1e-6);
     check_close("error", estimate.error(), shared / scale, 0.02 * shared);
@@ -172,7 +177,11 @@ void control_samples_are_compared_with_the_interpolated_value(void**) {
             pixels.spread[4 * i] = float(spread);
             pixels.spread[4 * i + 1] = pixels.spread[4 * i + 2] = float(wrong);
         }
-        control.pixels.push_back({i, float(pixels.radiance[4 * i] + (i % 16 == 0 ? spread : i % 8 == 0 ? -spread : 0)), 0, 0, 0, false});
+        control.pixels.push_back({i,
+                                  float(pixels.radiance[4 * i] + (i % 16 == 0  ? spread
+                                                                  : i % 8 == 0 ? -spread
+                                                                               : 0)),
+                                  0, 0, 0, false});
     }
     const ErrorEstimate estimate = estimated(pixels, control);
     check_at_most("interpolation, as validation pixels see it", estimate.interpolation, 1e-5);
@@ -193,12 +202,14 @@ void previous_validation_pixels_count_by_their_own_samples(void**) {
     ControlSet control;
     uint64_t wrong_pixels = 0;
     for (uint32_t i = 0; i < 24000; ++i) {
-        const bool chosen = i % 8 == 0, may_be = i % 3 != 0, is = may_be && !chosen && i % 3 == 1, is_wrong = may_be && !is;
+        const bool chosen = i % 8 == 0, may_be = i % 3 != 0, is = may_be && !chosen && i % 3 == 1,
+                   is_wrong = may_be && !is;
         pixels.decision[i] = is ? interpolated : chosen && may_be ? validation : shaded;
         pixels.sample_count[i] = is ? 0 : 64;
         std::fill_n(&pixels.spread[4 * i], 4, 0.0f);
         if (chosen && may_be) pixels.spread[4 * i + 1] = float(wrong);  // the interpolated value would be right
-        if (chosen) control.pixels.push_back({i, float(pixels.radiance[4 * i] + (is_wrong ? wrong : 0)), 0, 0, 0, false});
+        if (chosen)
+            control.pixels.push_back({i, float(pixels.radiance[4 * i] + (is_wrong ? wrong : 0)), 0, 0, 0, false});
         wrong_pixels += is_wrong;
     }
     const ErrorEstimate estimate = estimated(pixels, control);
@@ -214,13 +225,16 @@ void biased_control_samples_have_an_error_of_their_own(void**) {
     ControlSet control;
     control.samples = 400;
     const ControlSet::Pixel biased = {0, 1, 7, 7, 0, true}, unbiased = {0, 1, 0.0625f, 0.0625f, 0, false};
-    assert_true(control.is_better_than(biased, 100) && control.is_better_than(biased, 200) && !control.is_better_than(biased, 300) && !control.is_better_than(biased, 0));
+    assert_true(control.is_better_than(biased, 100) && control.is_better_than(biased, 200) &&
+                !control.is_better_than(biased, 300) && !control.is_better_than(biased, 0));
     assert_true(control.is_better_than(unbiased, 1000));
     // 0.3 of the control samples' own squared error is visible; it falls as samples to the power -1.2.
     const double own_part = std::pow(0.25, 1.2);
-    check_close("of a quarter of its samples", control.square(biased, 1.25, 0.5, 100) / 0.25, 1 / (1 + 0.3 * own_part), 1e-12);
+    check_close("of a quarter of its samples", control.square(biased, 1.25, 0.5, 100) / 0.25, 1 / (1 + 0.3 * own_part),
+                1e-12);
     check_close("without bias", control.square(unbiased, 1.25, 0.5, 100), 0.25 - 0.015625, 1e-12);
-    check_close("of another", control.squared_error_of_other(biased, 1.25, 0.5, 0.01, 100), 0.25 - 0.01 * own_part, 1e-12);
+    check_close("of another", control.squared_error_of_other(biased, 1.25, 0.5, 0.01, 100), 0.25 - 0.01 * own_part,
+                1e-12);
 }
 
 // Every pixel errs by b n^(-g / 2), all to one side, and by noise besides. A comparison with four times the samples
@@ -241,7 +255,8 @@ void common_mode_error_is_separated_from_noise(void**) {
     // be 1.)
     double sum = 0;
     for (int set = 0; set < 1000; ++set) sum += unseen_of_300(0);
-    check_close("unseen, of noise alone", sum / 1000 / (noise * noise / 300 * (1 / (visible * visible) - 1)), 0.484, 0.12);
+    check_close("unseen, of noise alone", sum / 1000 / (noise * noise / 300 * (1 / (visible * visible) - 1)), 0.484,
+                0.12);
     CommonModeError one;
     one.add(0.1, 0.25);
     assert_true(one.unseen() == 0);
@@ -267,7 +282,8 @@ void control_samples_correct_the_error_of_pilot_samples(void**) {
     Random random(16);
     const double error = 0.01;
     BiasEstimate sum;
-    for (int i = 0; i < 5000; ++i) sum.add(std::pow(error * normal(random), 2), 2 * std::pow(error * normal(random), 2));
+    for (int i = 0; i < 5000; ++i)
+        sum.add(std::pow(error * normal(random), 2), 2 * std::pow(error * normal(random), 2));
     // Means of 5,000 squares of normal deviations are known to 2 %; the control samples have all but a thousandth of
     // the weight.
     check_close("error", sum.error() / (error * error), 1, 0.12);
@@ -297,7 +313,8 @@ void a_single_large_square_is_uncertain(void**) {
 void a_cut_is_contradicted_only_by_more_light(void**) {
     const ControlSet::Pixel cut = {0, 1, 0.01f, 0.01f, 0, true};
     const auto seen = [](float mean, float deviation) { return ControlSet::Pixel{0, mean, 0, deviation, 0, false}; };
-    assert_true(ControlSet::sees_more_than(seen(1.31f, 0.1f), cut) && !ControlSet::sees_more_than(seen(1.29f, 0.1f), cut));
+    assert_true(ControlSet::sees_more_than(seen(1.31f, 0.1f), cut) &&
+                !ControlSet::sees_more_than(seen(1.29f, 0.1f), cut));
     assert_false(ControlSet::sees_more_than(seen(0, 0), cut));
 }
 
@@ -347,7 +364,8 @@ void the_control_set_has_the_size_that_settings_permit(void**) {
     settings.set_choice("sampler", "combined");
     assert_true(ControlSet::effort(settings, 30000, 0).part == 0);
     settings.set_number("target_error", 0.02);
-    assert_true(ControlSet::effort(settings, 30000, 0).pilot > 0 && ControlSet::effort(settings, 30000, 0).samples == 0);
+    assert_true(ControlSet::effort(settings, 30000, 0).pilot > 0 &&
+                ControlSet::effort(settings, 30000, 0).samples == 0);
     settings.set_choice("sampler", "cut");
     const ControlSet::Effort planned = ControlSet::effort(settings, 30000, 0);
     assert_int_equal(planned.pilot, 91);  // (0.3 / 0.02)^(2 / 1.2)
@@ -356,10 +374,12 @@ void the_control_set_has_the_size_that_settings_permit(void**) {
     assert_int_equal(ControlSet::effort(settings, 30000, 0).samples, 1125);  // 5 / (0.02 / 0.3)^2
     settings.set_number("time_budget", 50);
     const ControlSet::Effort hurried = ControlSet::effort(settings, 30000, 250000);
-    check_at_most("samples in a twentieth of the time", hurried.part * 30000 * (hurried.samples + constants::pixel_samples), 1.2 * 0.06 * 250000);
+    check_at_most("samples in a twentieth of the time",
+                  hurried.part * 30000 * (hurried.samples + constants::pixel_samples), 1.2 * 0.06 * 250000);
     assert_true(hurried.part * 30000 >= 64);
     // 64 pixels of 64 samples, and 30 before the first, are 6 % of 100,267.
-    assert_true(ControlSet::effort(settings, 30000, 101000).part > 0 && ControlSet::effort(settings, 30000, 100000).part == 0);
+    assert_true(ControlSet::effort(settings, 30000, 101000).part > 0 &&
+                ControlSet::effort(settings, 30000, 100000).part == 0);
 }
 
 }  // namespace

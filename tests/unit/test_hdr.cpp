@@ -119,7 +119,8 @@ void test_headers_of_many_programs(void**) {
         "#?\nCOLORCORR=+1 1 1\n\n-Y 1 +X 1\n",
         "#?RADIANCE\n" + format + "\nEXPOSURE=0\n\n-Y 1 +X 1\n",
     };
-    for (const std::string& header : headers) expect_texel(parse(header + Bytes{128, 64, 32, 129}), 0, 0, {128, 64, 32, 129});
+    for (const std::string& header : headers)
+        expect_texel(parse(header + Bytes{128, 64, 32, 129}), 0, 0, {128, 64, 32, 129});
     assert_int_equal(parse(headers.back() + Bytes{128, 64, 32, 129}).notes.size(), 1);
 }
 
@@ -138,8 +139,8 @@ void test_primaries(void**) {
     expect_colour(parse_texel("PRIMARIES= .640 .330 .290 .600 .150 .060 .333 .333"), {grey, grey, grey}, rounding);
     expect_colour(parse_texel("PRIMARIES=0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329"), {grey, grey, grey}, 0);
     expect_colour(parse_texel("PRIMARIES=0 0 0 0 0 0 0 0"), {grey, grey, grey}, 0);  // Adobe Photoshop
-    // ACES 2065-1 to linear Rec. 709, as in test_exr_headers: half a unit of the last digit in each coefficient, 5e-6, times the sum of the
-    // colours, 2.27; as much again for whites that are given in five digits.
+    // ACES 2065-1 to linear Rec. 709, as in test_exr_headers: half a unit of the last digit in each coefficient, 5e-6,
+    // times the sum of the colours, 2.27; as much again for whites that are given in five digits.
     const double red = 128.5 / 128, green = 64.5 / 128, blue = 96.5 / 128;
     const std::string aces = "#?RADIANCE\nPRIMARIES= .7347 .2653 0 1 .0001 -.077 .32168 .33767\n\n-Y 1 +X 1\n";
     expect_colour(parse(aces + Bytes{128, 64, 96, 129}),
@@ -149,7 +150,8 @@ void test_primaries(void**) {
     // X = Y = Z is equal energy, white; 179 candelas per square metre of it are 1 watt per steradian and square metre.
     expect_colour(parse_texel("FORMAT=32-bit_rle_xyze"), {grey / 179, grey / 179, grey / 179}, rounding / 179);
     // Whatever primaries a program has left in the header.
-    const std::string xyz = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n", primaries = "PRIMARIES= .64 .33 .3 .6 .15 .06 .3127 .3290\n";
+    const std::string xyz = "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n",
+                      primaries = "PRIMARIES= .64 .33 .3 .6 .15 .06 .3127 .3290\n";
     const Bytes texel = {128, 120, 96, 129};
     assert_true(parse(xyz + primaries + "\n-Y 1 +X 1\n" + texel).rgb == parse(xyz + "\n-Y 1 +X 1\n" + texel).rgb);
 }

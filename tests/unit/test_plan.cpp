@@ -1,8 +1,7 @@
 // The plan of a frame: what follows from its settings, before anything runs.
-#include "frame/plan.h"
-
 #include <set>
 
+#include "frame/plan.h"
 #include "numeric_testing.h"
 
 namespace lightband {
@@ -43,8 +42,8 @@ void what_is_read_is_written_and_what_is_written_is_read(void**) {
             written.insert(pass.writes.begin(), pass.writes.end());
             for (const std::string& buffer : pass.reads) ever_read.insert(buffer);
         }
-        // Rounds repeat, and the control subset is shaded into buffers that the first round writes again: so a buffer may be read earlier in
-        // the list than it is written.
+        // Rounds repeat, and the control subset is shaded into buffers that the first round writes again: so a buffer
+        // may be read earlier in the list than it is written.
         for (const std::string& buffer : ever_read)
             if (written.count(buffer) == 0) fail_msg("nobody writes %s", buffer.c_str());
         for (const std::string& buffer : written)
@@ -79,15 +78,21 @@ void bytes_are_those_of_the_formats(void**) {
 void what_a_frame_does_not_need_is_not_planned(void**) {
     each_frame([](const Settings& settings) {
         const Plan plan(settings, input);
-        const bool adaptive = settings.method() == Method::adaptive, interpolates = adaptive && settings.coarsest_level() > 0;
+        const bool adaptive = settings.method() == Method::adaptive,
+                   interpolates = adaptive && settings.coarsest_level() > 0;
         const Sampler sampler = settings.sampler();
-        for (const char* name : {"gbuffer", "covered", "classify", "list", "shade", "estimate"}) assert_non_null(plan.find(name));
+        for (const char* name : {"gbuffer", "covered", "classify", "list", "shade", "estimate"})
+            assert_non_null(plan.find(name));
         for (const char* name : {"environment", "bandwidth"}) assert_true((plan.find(name) != nullptr) == adaptive);
-        for (const char* name : {"pyramids", "upsample", "combine"}) assert_true((plan.find(name) != nullptr) == interpolates);
+        for (const char* name : {"pyramids", "upsample", "combine"})
+            assert_true((plan.find(name) != nullptr) == interpolates);
         assert_true((plan.find("background") != nullptr) == settings.background());
-        assert_true((plan.find("control") != nullptr) == (adaptive && (sampler == Sampler::cut || sampler == Sampler::filtered)));
-        for (const char* name : {"recheck", "replace"}) assert_true((plan.find(name) != nullptr) == (adaptive && sampler == Sampler::cut));
-        if (plan.find("pilot") != nullptr) assert_true(adaptive && (settings.target_error() > 0 || sampler == Sampler::cut));
+        assert_true((plan.find("control") != nullptr) ==
+                    (adaptive && (sampler == Sampler::cut || sampler == Sampler::filtered)));
+        for (const char* name : {"recheck", "replace"})
+            assert_true((plan.find(name) != nullptr) == (adaptive && sampler == Sampler::cut));
+        if (plan.find("pilot") != nullptr)
+            assert_true(adaptive && (settings.target_error() > 0 || sampler == Sampler::cut));
         bool variances = false;
         for (const PlannedPass& pass : plan.passes())
             for (const std::string& buffer : pass.writes) variances = variances || buffer == "variances";

@@ -13,7 +13,9 @@ using namespace testing;
 constexpr RecheckSamples samples{64, 256, 735};  // unbiased: ControlSet::unbiased_samples(64)
 constexpr double harmless = 0.005;
 
-double normal(Random* random) { return std::sqrt(-2 * std::log(1 - random->uniform())) * std::cos(2 * pi * random->uniform()); }
+double normal(Random* random) {
+    return std::sqrt(-2 * std::log(1 - random->uniform())) * std::cos(2 * pi * random->uniform());
+}
 
 // Pixels of a cut that errs by `few` with 64 samples (half of the squared error is common to all pixels) and loses the
 // fraction `lost` of the light with any number of samples. Unbiased samples have the standard deviation `noise`.
@@ -23,8 +25,10 @@ Recheck of_pixels(uint64_t seed, double few, double lost, double noise) {
     const double falls = std::pow(samples.few / samples.many, 0.5 * constants::stratified_gain);
     for (int i = 0; i < 72; ++i) {
         const double alike = few * std::sqrt(0.5), a = alike * normal(&random), b = alike * falls * normal(&random);
-        const double first = noise * std::sqrt(2.0) * normal(&random), second = noise * std::sqrt(2.0) * normal(&random);
-        pixels.push_back({1 - lost + alike + a, 1 - lost + falls * alike + b, 1 + (first + second) / 2, (first - second) / 2, noise});
+        const double first = noise * std::sqrt(2.0) * normal(&random),
+                     second = noise * std::sqrt(2.0) * normal(&random);
+        pixels.push_back({1 - lost + alike + a, 1 - lost + falls * alike + b, 1 + (first + second) / 2,
+                          (first - second) / 2, noise});
     }
     return recheck(pixels, samples);
 }
@@ -54,7 +58,8 @@ void a_cut_with_more_error_than_unbiased_samples_is_given_up(void**) {
         Random random(5);
         std::vector<RecheckedPixel> pixels;
         for (int i = 0; i < 72; ++i) {
-            const double off = error * (i % 2 == 0 ? 1 : -1), first = noise * normal(&random), second = noise * normal(&random);
+            const double off = error * (i % 2 == 0 ? 1 : -1), first = noise * normal(&random),
+                         second = noise * normal(&random);
             pixels.push_back({1 + off, 1 + off, 1 + (first + second) / 2, (first - second) / 2, noise});
         }
         return recheck(pixels, samples);
@@ -70,7 +75,9 @@ void the_standard_error_of_one_pixel_is_not_its_spread(void**) {
     assert_true(recheck({{1.05, 1.05, 1, 0, 0.01}}, samples).contradicts(harmless));
 }
 
-void no_pixels_contradict_nothing(void**) { assert_false(recheck({}, samples).contradicts(harmless)); }
+void no_pixels_contradict_nothing(void**) {
+    assert_false(recheck({}, samples).contradicts(harmless));
+}
 
 }  // namespace
 }  // namespace lightband
